@@ -1,0 +1,120 @@
+//! What a running bake is doing, seen and stopped from another thread.
+
+use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+use alloc::boxed::Box;
+
+/// The steps of a bake in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Charts for meshes that have none, and their places in the images.
+    Unwrap,
+    /// Triangles into a hierarchy, charts into texels.
+    Geometry,
+    /// Light that arrives straight from a source, texel by texel.
+    Direct,
+    /// Form factors between patches.
+    Transport,
+    /// The radiosity equation.
+    Solve,
+    /// Light that arrives from all other surfaces.
+    Gather,
+    /// Repairs at borders and of invalid texels.
+    Finish,
+}
+
+impl Stage {
+    /// All stages in their order.
+    pub const ALL: [Self; 7] =
+        [Self::Unwrap, Self::Geometry, Self::Direct, Self::Transport, Self::Solve, Self::Gather, Self::Finish];
+
+    /// In lower case, for reports and bars.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Unwrap => "unwrap",
+            Self::Geometry => "geometry",
+            Self::Direct => "direct",
+            Self::Transport => "transport",
+            Self::Solve => "solve",
+            Self::Gather => "gather",
+            Self::Finish => "finish",
+        }
+    }
+}
+
+/// Shared between the bake, which writes, and whoever watches or cancels it.
+pub struct Progress {
+    stage: AtomicU32,
+    done: AtomicU32,
+    cancelled: AtomicBool,
+    clock: Box<dyn Fn() -> f64 + Send + Sync>,
+}
+
+/// One look at a running bake.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Snapshot {
+    /// What is being done.
+    pub stage: Stage,
+    /// Share of this stage that is done, in `[0, 1]`.
+    pub stage_done: f32,
+    /// Share of the whole bake that is done, in `[0, 1]`; an estimate.
+    pub done: f32,
+    /// Seconds until the end; an estimate, infinite at the start.
+    pub remaining_seconds: f32,
+}
+
+/// The bake was cancelled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cancelled;
+
+/// Where in the whole bake each stage starts, from typical times; the last entry is the end.
+const START: [f32; 8] = [0.0, 0.05, 0.08, 0.40, 0.50, 0.51, 0.98, 1.0];
+
+impl Progress {
+    /// Watches a bake by a clock that tells the seconds since some moment.
+    pub fn with_clock(clock: impl Fn() -> f64 + Send + Sync + 'static) -> Self {
+        Self {
+            stage: AtomicU32::new(0),
+            done: AtomicU32::new(0),
+            cancelled: AtomicBool::new(false),
+            clock: Box::new(clock),
+        }
+    }
+
+    /// Makes the bake return at the next opportunity, within a tenth of a second.
+    pub fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// What the bake is doing now.
+    pub fn snapshot(&self) -> Snapshot {
+        let index = (self.stage.load(Ordering::Relaxed) as usize).min(Stage::ALL.len() - 1);
+        let stage_done = f32::from_bits(self.done.load(Ordering::Relaxed));
+        let done = START[index] + (START[index + 1] - START[index]) * stage_done;
+        let seconds = (self.clock)() as f32;
+        let remaining_seconds = if done > 0.0 { seconds * (1.0 - done) / done } else { f32::INFINITY };
+        Snapshot { stage: Stage::ALL[index], stage_done, done, remaining_seconds }
+    }
+
+    /// Seconds on the clock.
+    pub fn seconds(&self) -> f64 {
+        (self.clock)()
+    }
+
+    /// Tells that a stage begins.
+    pub fn enter(&self, stage: Stage) {
+        self.done.store(0, Ordering::Relaxed);
+        self.stage.store(stage as u32, Ordering::Relaxed);
+    }
+
+    /// Tells the share of the stage that is done, in `[0, 1]`, and whether to go on.
+    pub fn advance(&self, done: f32) -> Result<(), Cancelled> {
+        self.done.store(done.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
+        self.check()
+    }
+
+    /// Whether to go on.
+    pub fn check(&self) -> Result<(), Cancelled> {
+        if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
+    }
+}

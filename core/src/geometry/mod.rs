@@ -1,0 +1,5 @@
+//! Triangles, rays, and what a ray meets.
+
+mod mesh;
+
+pub use mesh::*;

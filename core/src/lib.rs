@@ -1,0 +1,20 @@
+//! Diffuse light transport: form factors, the radiosity equation and lightmaps.
+#![no_std]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
+
+#[cfg(feature = "alloc")]
+pub mod bake;
+#[cfg(feature = "alloc")]
+pub mod geometry;
+#[cfg(feature = "alloc")]
+pub mod light;
+#[cfg(feature = "alloc")]
+pub mod lightmap;
+#[cfg(feature = "alloc")]
+pub mod material;
+#[cfg(feature = "alloc")]
+pub mod scene;

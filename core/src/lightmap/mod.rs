@@ -1,0 +1,5 @@
+//! From charts to the finished lightmaps.
+
+mod image;
+
+pub use image::*;

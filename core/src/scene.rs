@@ -1,0 +1,56 @@
+//! What is baked: surfaces with their materials, and lights.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use glam::{Affine3A, Vec3};
+
+use crate::geometry::Mesh;
+use crate::light::Light;
+use crate::material::{Material, Texture};
+
+/// Everything that takes part in a bake. Lengths are in meters.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Shapes; one shape may be used by many surfaces.
+    pub meshes: Vec<Mesh>,
+    /// Shapes at their places.
+    pub surfaces: Vec<Surface>,
+    /// Indexed by `Surface::material`.
+    pub materials: Vec<Material>,
+    /// Indexed by the materials.
+    pub textures: Vec<Texture>,
+    /// Light sources beside emissive materials.
+    pub lights: Vec<Light>,
+    /// Radiance of the surroundings in cd/m2, the same in all directions.
+    pub sky: Vec3,
+}
+
+/// A mesh at its place, with its material.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// For messages.
+    pub name: String,
+    /// Index into `Scene::meshes`.
+    pub mesh: usize,
+    /// Index into `Scene::materials`.
+    pub material: usize,
+    /// From the mesh to the world. A negative determinant turns the winding around.
+    pub transform: Affine3A,
+    /// Whether the surface gets a lightmap.
+    pub receiver: Receiver,
+    /// Whether it blocks, reflects and emits light. A surface that does not can still get a lightmap.
+    pub casts: bool,
+}
+
+/// Whether a surface gets a lightmap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Receiver {
+    /// It does, at the density of the bake times this factor, which is positive; 1 is usual.
+    Lightmap {
+        /// Factor on the texels per meter.
+        density: f32,
+    },
+    /// It does not.
+    Nothing,
+}
