@@ -17,4 +17,6 @@ pub mod lightmap;
 #[cfg(feature = "alloc")]
 pub mod material;
 #[cfg(feature = "alloc")]
+pub mod progress;
+#[cfg(feature = "alloc")]
 pub mod scene;

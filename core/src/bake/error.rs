@@ -3,7 +3,8 @@
 use alloc::string::String;
 use core::fmt;
 
-use super::progress::Cancelled;
+use crate::lightmap::LayoutError;
+use crate::progress::Cancelled;
 
 /// Why a bake could not be made. Its text says what to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +63,17 @@ impl fmt::Display for BakeError {
 }
 
 impl core::error::Error for BakeError {}
+
+impl From<LayoutError> for BakeError {
+    fn from(error: LayoutError) -> Self {
+        match error {
+            LayoutError::Invalid(what) => Self::Invalid(what),
+            LayoutError::UnusableUv { mesh, reason } => Self::UnusableUv { mesh, reason },
+            LayoutError::DoesNotFit(what) => Self::DoesNotFit(what),
+            LayoutError::Cancelled => Self::Cancelled,
+        }
+    }
+}
 
 impl From<Cancelled> for BakeError {
     fn from(_: Cancelled) -> Self {

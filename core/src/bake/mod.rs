@@ -1,18 +1,17 @@
 //! The whole pipeline.
 
 mod error;
-mod progress;
 mod report;
 mod settings;
 
 pub use error::*;
-pub use progress::*;
 pub use report::*;
 pub use settings::*;
 
 use alloc::vec::Vec;
 
 use crate::lightmap::{LightmapImage, LightmapUv, Placement};
+use crate::progress::Progress;
 use crate::scene::Scene;
 
 /// A finished bake.

@@ -1,5 +1,7 @@
 //! From charts to the finished lightmaps.
 
 mod image;
+mod layout;
 
 pub use image::*;
+pub use layout::*;

@@ -70,6 +70,15 @@ pub struct Cancelled;
 /// Where in the whole bake each stage starts, from typical times; the last entry is the end.
 const START: [f32; 8] = [0.0, 0.05, 0.08, 0.40, 0.50, 0.51, 0.98, 1.0];
 
+#[cfg(feature = "std")]
+impl Default for Progress {
+    /// Watches a bake that starts now by the clock of the machine.
+    fn default() -> Self {
+        let start = std::time::Instant::now();
+        Self::with_clock(move || start.elapsed().as_secs_f64())
+    }
+}
+
 impl Progress {
     /// Watches a bake by a clock that tells the seconds since some moment.
     pub fn with_clock(clock: impl Fn() -> f64 + Send + Sync + 'static) -> Self {
