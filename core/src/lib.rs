@@ -6,6 +6,9 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+pub mod math;
+pub mod spectrum;
+
 #[cfg(feature = "alloc")]
 pub mod bake;
 #[cfg(feature = "alloc")]
@@ -16,6 +19,8 @@ pub mod light;
 pub mod lightmap;
 #[cfg(feature = "alloc")]
 pub mod material;
+#[cfg(feature = "alloc")]
+pub mod parallel;
 #[cfg(feature = "alloc")]
 pub mod progress;
 #[cfg(feature = "alloc")]

@@ -1,0 +1,38 @@
+//! One thread, where there is no other.
+
+use core::ops::Range;
+
+use alloc::vec::Vec;
+
+use crate::progress::{Cancelled, Progress};
+
+/// The threads that work on a bake: here, the one that calls.
+pub struct Workers;
+
+impl Workers {
+    /// There is one thread, whatever is asked for.
+    pub fn new(_threads: usize) -> Self {
+        Self
+    }
+
+    /// How many threads work.
+    pub fn threads(&self) -> usize {
+        1
+    }
+
+    /// The results of `task` for `0..count`, in order, computed `chunk` at a time.
+    pub fn map<T: Send>(
+        &self,
+        count: usize,
+        chunk: usize,
+        progress: &Progress,
+        task: impl Fn(Range<usize>) -> Vec<T> + Sync,
+    ) -> Result<Vec<T>, Cancelled> {
+        let mut results = Vec::with_capacity(count);
+        for start in (0..count).step_by(chunk) {
+            progress.advance(start as f32 / count as f32)?;
+            results.extend(task(start..(start + chunk).min(count)));
+        }
+        Ok(results)
+    }
+}

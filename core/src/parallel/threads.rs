@@ -1,0 +1,55 @@
+//! The threads of rayon.
+
+use core::ops::Range;
+use core::sync::atomic::{AtomicUsize, Ordering};
+
+use alloc::vec::Vec;
+
+use rayon::prelude::*;
+
+use crate::progress::{Cancelled, Progress};
+
+/// The threads that work on a bake.
+pub struct Workers(rayon::ThreadPool);
+
+impl Workers {
+    /// As many threads as asked for; 0: one for each core.
+    ///
+    /// # Panics
+    ///
+    /// Where the machine refuses to start a thread.
+    pub fn new(threads: usize) -> Self {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        Self(pool.expect("the machine can start threads"))
+    }
+
+    /// How many threads work.
+    pub fn threads(&self) -> usize {
+        self.0.current_num_threads()
+    }
+
+    /// The results of `task` for `0..count`, in order, computed `chunk` at a time.
+    pub fn map<T: Send>(
+        &self,
+        count: usize,
+        chunk: usize,
+        progress: &Progress,
+        task: impl Fn(Range<usize>) -> Vec<T> + Sync,
+    ) -> Result<Vec<T>, Cancelled> {
+        let done = AtomicUsize::new(0);
+        let parts: Result<Vec<Vec<T>>, Cancelled> = self.0.install(|| {
+            (0..count.div_ceil(chunk))
+                .into_par_iter()
+                .map(|index| {
+                    progress.advance(done.load(Ordering::Relaxed) as f32 / count as f32)?;
+                    let range = index * chunk..((index + 1) * chunk).min(count);
+                    done.fetch_add(range.len(), Ordering::Relaxed);
+                    Ok(task(range))
+                })
+                .collect()
+        });
+        let mut results = Vec::with_capacity(count);
+        parts?.into_iter().for_each(|part| results.extend(part));
+        Ok(results)
+    }
+}
