@@ -10,18 +10,20 @@ pub mod math;
 pub mod spectrum;
 
 #[cfg(feature = "alloc")]
-pub mod bake;
+pub mod progress;
+#[cfg(feature = "alloc")]
+pub mod parallel;
+#[cfg(feature = "alloc")]
+pub mod material;
 #[cfg(feature = "alloc")]
 pub mod geometry;
 #[cfg(feature = "alloc")]
 pub mod light;
 #[cfg(feature = "alloc")]
+pub mod scene;
+#[cfg(feature = "alloc")]
 pub mod lightmap;
 #[cfg(feature = "alloc")]
-pub mod material;
+pub mod bake;
 #[cfg(feature = "alloc")]
-pub mod parallel;
-#[cfg(feature = "alloc")]
-pub mod progress;
-#[cfg(feature = "alloc")]
-pub mod scene;
+pub mod render;
