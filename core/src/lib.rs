@@ -11,7 +11,7 @@ pub mod spectrum;
 
 #[cfg(feature = "alloc")]
 pub mod bake;
-#[cfg(feature = "alloc")]
+pub mod form_factor;
 pub mod geometry;
 #[cfg(feature = "alloc")]
 pub mod light;
@@ -25,3 +25,4 @@ pub mod parallel;
 pub mod progress;
 #[cfg(feature = "alloc")]
 pub mod scene;
+pub mod solve;
