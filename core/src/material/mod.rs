@@ -1,7 +1,13 @@
 //! What a surface does with light: reflectance, exitance, alpha, each a factor and perhaps a texture.
 
+mod lookup;
+mod srgb;
+mod texture;
+
+pub use srgb::*;
+pub use texture::*;
+
 use alloc::string::String;
-use alloc::vec::Vec;
 
 use glam::{Affine2, Vec3, Vec4};
 
@@ -78,44 +84,4 @@ pub enum UvSet {
     Uv0,
     /// `Mesh::uv_1`, as it was before the bake.
     Uv1,
-}
-
-/// A picture and how it is read outside `0..1`. Row 0 is at the top, `v` points down.
-#[derive(Clone, Debug)]
-pub struct Texture {
-    /// For messages.
-    pub name: String,
-    /// Texels in a row, at least 1.
-    pub width: u32,
-    /// Rows, at least 1.
-    pub height: u32,
-    /// `width x height` texels, row by row.
-    pub texels: Texels,
-    /// Outside `0..1` in `u`.
-    pub wrap_u: Wrap,
-    /// Outside `0..1` in `v`.
-    pub wrap_v: Wrap,
-}
-
-/// The texels of a texture. Alpha is linear always.
-#[derive(Clone, Debug)]
-pub enum Texels {
-    /// sRGB, as colors are stored.
-    Srgb8(Vec<[u8; 4]>),
-    /// Linear, as masks are stored.
-    Linear8(Vec<[u8; 4]>),
-    /// Linear, with any range.
-    Linear32(Vec<[f32; 4]>),
-}
-
-/// How a texture goes on outside `0..1`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wrap {
-    /// It repeats.
-    #[default]
-    Repeat,
-    /// Every second copy is mirrored.
-    Mirror,
-    /// The border goes on.
-    Clamp,
 }

@@ -1,5 +1,9 @@
 //! What is baked: surfaces with their materials, and lights.
 
+mod cornell;
+
+pub use cornell::*;
+
 use alloc::string::String;
 use alloc::vec::Vec;
 
