@@ -8,19 +8,19 @@ extern crate std;
 
 pub mod math;
 pub mod spectrum;
-
 #[cfg(feature = "alloc")]
 pub mod progress;
 #[cfg(feature = "alloc")]
 pub mod parallel;
 #[cfg(feature = "alloc")]
 pub mod material;
-#[cfg(feature = "alloc")]
 pub mod geometry;
+pub mod form_factor;
 #[cfg(feature = "alloc")]
 pub mod light;
 #[cfg(feature = "alloc")]
 pub mod scene;
+pub mod solve;
 #[cfg(feature = "alloc")]
 pub mod lightmap;
 #[cfg(feature = "alloc")]

@@ -1,6 +1,7 @@
 //! Triangles, rays, and what a ray meets.
 
 mod hemisphere;
+#[cfg(feature = "alloc")]
 mod mesh;
 mod ray;
 mod sobol;
@@ -14,6 +15,7 @@ mod bvh;
 #[cfg(feature = "bvh")]
 pub use bvh::*;
 pub use hemisphere::*;
+#[cfg(feature = "alloc")]
 pub use mesh::*;
 pub use occluders::{BruteForce, Occluders};
 pub use ray::*;
