@@ -22,7 +22,11 @@ pub mod material;
 #[cfg(feature = "alloc")]
 pub mod parallel;
 #[cfg(feature = "alloc")]
+pub mod patch;
+#[cfg(feature = "alloc")]
 pub mod progress;
 #[cfg(feature = "alloc")]
 pub mod scene;
 pub mod solve;
+#[cfg(feature = "alloc")]
+pub mod transport;
