@@ -1,4 +1,66 @@
 //! Diffuse light transport: form factors, the radiosity equation and lightmaps.
+//!
+//! [`bake::bake`] turns a [`scene::Scene`] into lightmaps; start reading there. With the built-in scene:
+//!
+//! ```
+//! # #[cfg(feature = "bake")]
+//! # {
+//! use radiosity::bake::{BakeSettings, Quality, bake};
+//! use radiosity::lightmap::{LayoutSettings, Resolution};
+//! use radiosity::progress::Progress;
+//! use radiosity::scene::cornell_box;
+//!
+//! let layout = LayoutSettings { resolution: Resolution::TexelsPerMeter(16.0), ..Default::default() };
+//! let settings = BakeSettings { layout, quality: Quality::Draft, ..Default::default() };
+//! let bake = bake(&cornell_box(), &settings, &Progress::default())?;
+//! assert_eq!(bake.report.surfaces, 8);
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # The map
+//!
+//! geometry -> patches -> form factors -> solve -> gather -> lightmap. A module uses only modules above it:
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`math`], [`spectrum`] | float functions; gray, RGB and bands |
+//! | `progress`, `parallel` | a running bake, seen and stopped; work cut into chunks |
+//! | `material` | reflectance, exitance, alpha, textures |
+//! | [`geometry`] | triangles, rays, directions, Sobol points, the tree |
+//! | [`form_factor`] | the share of the light of one surface that reaches another |
+//! | `light` | the irradiance that a lamp gives at a point |
+//! | [`solve`] | the radiosity equation `b = e + rho F b` |
+//! | `scene` | surfaces, materials and lights; the measured Cornell box |
+//! | `transport` | rows of form factors from rays |
+//! | `lightmap` | charts, atlases, texels: direct light, gathered light, repairs |
+//! | `patch` | surfaces in pieces that bounce light |
+//! | `bake` | the whole pipeline, its settings and its report |
+//! | `render` | a baked scene as a camera sees it |
+//!
+//! # Quantities
+//!
+//! | quantity | unit | in the code |
+//! |---|---|---|
+//! | length | m | positions, distances, radii |
+//! | radiance, luminance | cd/m2 | emission, texels, the sky |
+//! | irradiance, illuminance | lx | what arrives at a point; a texel holds irradiance / pi |
+//! | intensity | cd | point and spot lights |
+//! | reflectance, alpha, form factor | 1 | shares in `[0, 1]` |
+//! | angle | rad | |
+//!
+//! All quantities of light are per linear RGB channel.
+//!
+//! # Features
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | none | `math`, `spectrum`, `geometry`, `form_factor`, `solve` on slices: neither heap nor operating system |
+//! | `alloc` | all other modules |
+//! | `std` | the clock and the float functions of the system |
+//! | `bvh`, `parallel`, `unwrap` | the tree of obvhs, the threads of rayon, coordinates for meshes that have none |
+//! | `bake` (default) | the three above |
+//! | `libm` | the same bits on every target |
 #![no_std]
 
 #[cfg(feature = "alloc")]
@@ -18,11 +80,15 @@ pub mod geometry;
 pub mod form_factor;
 #[cfg(feature = "alloc")]
 pub mod light;
-#[cfg(feature = "alloc")]
-pub mod scene;
 pub mod solve;
 #[cfg(feature = "alloc")]
+pub mod scene;
+#[cfg(feature = "alloc")]
+pub mod transport;
+#[cfg(feature = "alloc")]
 pub mod lightmap;
+#[cfg(feature = "alloc")]
+pub mod patch;
 #[cfg(feature = "alloc")]
 pub mod bake;
 #[cfg(feature = "alloc")]

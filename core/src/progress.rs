@@ -46,6 +46,8 @@ impl Stage {
 pub struct Progress {
     stage: AtomicU32,
     done: AtomicU32,
+    part: AtomicU32,
+    parts: AtomicU32,
     cancelled: AtomicBool,
     clock: Box<dyn Fn() -> f64 + Send + Sync>,
 }
@@ -85,6 +87,8 @@ impl Progress {
         Self {
             stage: AtomicU32::new(0),
             done: AtomicU32::new(0),
+            part: AtomicU32::new(0),
+            parts: AtomicU32::new(1),
             cancelled: AtomicBool::new(false),
             clock: Box::new(clock),
         }
@@ -113,12 +117,21 @@ impl Progress {
     /// Tells that a stage begins.
     pub fn enter(&self, stage: Stage) {
         self.done.store(0, Ordering::Relaxed);
+        self.enter_part(0, 1);
         self.stage.store(stage as u32, Ordering::Relaxed);
     }
 
-    /// Tells the share of the stage that is done, in `[0, 1]`, and whether to go on.
+    /// Tells that one of several equal parts of the stage begins, counted from 0.
+    pub fn enter_part(&self, part: usize, parts: usize) {
+        self.part.store(part as u32, Ordering::Relaxed);
+        self.parts.store(parts as u32, Ordering::Relaxed);
+    }
+
+    /// Tells the share of the part of the stage that is done, in `[0, 1]`, and whether to go on.
     pub fn advance(&self, done: f32) -> Result<(), Cancelled> {
-        self.done.store(done.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
+        let (part, parts) = (self.part.load(Ordering::Relaxed), self.parts.load(Ordering::Relaxed));
+        let done = (part as f32 + done.clamp(0.0, 1.0)) / parts.max(1) as f32;
+        self.done.store(done.min(1.0).to_bits(), Ordering::Relaxed);
         self.check()
     }
 

@@ -1,6 +1,14 @@
-//! The whole pipeline.
+//! The whole pipeline: start reading at [`bake`].
 
+mod assemble;
+mod bounce;
+mod check;
+mod emitters;
 mod error;
+mod estimate;
+mod field;
+mod memory;
+mod rays;
 mod report;
 mod settings;
 
@@ -8,11 +16,26 @@ pub use error::*;
 pub use report::*;
 pub use settings::*;
 
+use alloc::format;
+use alloc::string::String;
+use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::lightmap::{LightmapImage, LightmapUv, Placement};
-use crate::progress::Progress;
-use crate::scene::Scene;
+use glam::Vec3;
+
+use crate::geometry::{Occluders, hash, tree};
+use crate::light::DirectLight;
+use crate::lightmap::{
+    Direct, Gather, LightmapImage, LightmapUv, Placement, Smooth, Texels, check as check_texels, filter, layout,
+};
+use crate::parallel::Workers;
+use crate::patch::Patches;
+use crate::progress::{Cancelled, Progress, Stage};
+use crate::scene::{Scene, World};
+use crate::transport::Tracer;
+use bounce::{Bounce, Stage as PatchStage};
+use field::Field;
+use rays::RayBudget;
 
 /// A finished bake.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,9 +52,187 @@ pub struct Bake {
 
 /// Bakes the lightmaps of a scene.
 ///
+/// Charts are laid out; light that comes straight from the sources is found for each texel; cells of texels become
+/// patches, and rays count the form factors between them; the radiosity equation gives the light of all bounces; each
+/// texel gathers it once.
+///
 /// # Errors
 ///
-/// See [`BakeError`]; nothing is lost, and the text of an error says what to do.
-pub fn bake(_scene: &Scene, _settings: &BakeSettings, _progress: &Progress) -> Result<Bake, BakeError> {
-    Err(BakeError::NothingToBake)
+/// See [`BakeError`]; the text of each says what to do.
+pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
+    check::check(scene, settings)?;
+    let budget = RayBudget::from(settings.quality);
+    let mut log = Log::new(progress);
+
+    log.enter(Stage::Unwrap);
+    let layout = layout(scene, &settings.layout, progress)?;
+    let needed = memory::check(scene, &layout, budget.row, budget.patches, settings.memory_bytes)?;
+
+    log.enter(Stage::Geometry);
+    let workers = Workers::new(settings.threads);
+    let world = World::new(scene);
+    let tracer = Tracer::new(&world, tree(&world.corners[..world.blockers]));
+    let mut texels = Texels::new(&world, &layout);
+    let baker = Baker { tracer: &tracer, workers: &workers, progress, budget, seed: seed(settings.seed) };
+    let is_valid = check_texels(&mut texels, &tracer, &workers, baker.seed(1), progress)?;
+
+    log.enter_after(Stage::Direct, &tracer);
+    let (lights, is_light) = emitters::lights(&world);
+    let direct = baker.direct(&texels, &is_valid, &lights)?;
+
+    log.enter_after(Stage::Transport, &tracer);
+    let patches = Patches::new(&world, &texels, &is_valid, layout.texels_per_meter, budget.patches);
+    let stage = baker.stage(&texels, &patches);
+    let rows = stage.rows(budget.row)?;
+
+    log.enter_after(Stage::Solve, &tracer);
+    let mut bounce = stage.bounce(&direct, &lights, &is_light)?;
+    bounce.solve(&rows, scene.sky);
+
+    log.enter_after(Stage::Gather, &tracer);
+    let incident = field::incident(&direct, &texels, &patches, &bounce, &workers, progress)?;
+    let field =
+        Field { world: &world, texels: &texels, patches: &patches, bounce: &bounce, is_light: &is_light, incident };
+    let (indirect, nodes) = baker.indirect(&is_valid, &field)?;
+
+    log.enter_after(Stage::Finish, &tracer);
+    let images = assemble::images(&texels, &is_valid, &patches, &direct, &indirect, &workers, progress)?;
+
+    let valid = is_valid.iter().filter(|is_valid| **is_valid).count();
+    let mut report = Report {
+        triangles: world.blockers,
+        surfaces: layout.placements.iter().flatten().count(),
+        texels: images.iter().map(|image| image.texels.len()).sum(),
+        valid_texels: valid,
+        invalid_texels: is_valid.len() - valid,
+        patches: patches.list.len(),
+        nodes,
+        images: images.len(),
+        texels_per_meter: layout.texels_per_meter,
+        threads: workers.threads(),
+        seed: settings.seed,
+        estimated_memory_bytes: needed,
+        closure_error: rows.closure_error(),
+        energy_balance: bounce.energy_balance(&patches, &rows, scene.sky),
+        estimated_error: estimate::estimate(&texels, &is_valid, &patches, &bounce, &direct, &indirect),
+        warnings: layout.warnings,
+        ..Report::default()
+    };
+    report.warnings.extend(warnings(&world, &bounce));
+    report.stages = log.finish(&tracer);
+    Ok(Bake { images, uvs: layout.uvs, placements: layout.placements, report })
+}
+
+/// The steps that send rays.
+struct Baker<'a, O> {
+    tracer: &'a Tracer<'a, O>,
+    workers: &'a Workers,
+    progress: &'a Progress,
+    budget: RayBudget,
+    seed: u32,
+}
+
+impl<O: Occluders> Baker<'_, O> {
+    /// Seeds for independent purposes.
+    fn seed(&self, purpose: u32) -> u32 {
+        hash(self.seed, purpose)
+    }
+
+    /// Direct irradiance / pi for each texel.
+    fn direct(&self, texels: &Texels, is_valid: &[bool], lights: &[DirectLight]) -> Result<Vec<Vec3>, Cancelled> {
+        let mut irradiance = vec![Vec3::ZERO; texels.list.len()];
+        for (index, light) in lights.iter().enumerate() {
+            self.progress.enter_part(index, lights.len());
+            let seed = hash(self.seed(2), index as u32);
+            let direct = Direct { texels, is_valid, tracer: self.tracer, rays: self.budget.shadow, seed };
+            direct.add(light, &mut irradiance, self.workers, self.progress)?;
+        }
+        Ok(irradiance)
+    }
+
+    fn stage<'a>(&'a self, texels: &'a Texels, patches: &'a Patches) -> PatchStage<'a, O> {
+        let Self { tracer, workers, progress, .. } = *self;
+        PatchStage { tracer, texels, patches, workers, progress, seed: self.seed(3) }
+    }
+
+    /// Indirect light for each texel, and the number of nodes at which it was gathered.
+    fn indirect(&self, is_valid: &[bool], field: &Field) -> Result<(Vec<Smooth>, usize), Cancelled> {
+        let gather = Gather {
+            texels: field.texels,
+            is_valid,
+            tracer: self.tracer,
+            radiance: |hit: &_| field.radiance(hit),
+            sky: field.world.scene.sky,
+            settings: self.budget.gather,
+            seed: self.seed(4),
+        };
+        let gathered = gather.run(self.workers, self.progress)?;
+        let nodes = gathered.iter().filter(|node| node.width > 0).count();
+        Ok((filter(&gathered, field.texels, is_valid, self.workers, self.progress)?, nodes))
+    }
+}
+
+/// The stages as they pass.
+struct Log<'a> {
+    progress: &'a Progress,
+    stages: Vec<StageReport>,
+    start: f64,
+}
+
+impl<'a> Log<'a> {
+    fn new(progress: &'a Progress) -> Self {
+        Self { progress, stages: Vec::new(), start: progress.seconds() }
+    }
+
+    fn enter(&mut self, stage: Stage) {
+        self.close(0);
+        self.progress.enter(stage);
+        self.stages.push(StageReport { name: stage.name(), ..StageReport::default() });
+    }
+
+    fn enter_after<O: Occluders>(&mut self, stage: Stage, tracer: &Tracer<O>) {
+        self.close(tracer.take_count());
+        self.progress.enter(stage);
+        self.stages.push(StageReport { name: stage.name(), ..StageReport::default() });
+    }
+
+    fn close(&mut self, rays: u64) {
+        let now = self.progress.seconds();
+        if let Some(last) = self.stages.last_mut() {
+            (last.seconds, last.rays) = (now - self.start, rays);
+        }
+        self.start = now;
+    }
+
+    fn finish<O: Occluders>(mut self, tracer: &Tracer<O>) -> Vec<StageReport> {
+        self.close(tracer.take_count());
+        self.stages
+    }
+}
+
+/// What the user should know about the scene.
+fn warnings(world: &World, bounce: &Bounce) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if world.not_finite > 0 {
+        warnings.push(format!(
+            "{} triangles have a corner that is not finite (NaN or infinite) and were left out; mend the mesh",
+            world.not_finite
+        ));
+    }
+    if world.degenerate > 0 {
+        warnings.push(format!("{} triangles without area were left out", world.degenerate));
+    }
+    if bounce.lowered > 0 {
+        warnings.push(format!(
+            "{} of {} patches reflect more than {} and were taken to reflect that; lower the base color of their materials",
+            bounce.lowered,
+            bounce.reflectance.len(),
+            bounce::LARGEST_REFLECTANCE
+        ));
+    }
+    warnings
+}
+
+fn seed(seed: u64) -> u32 {
+    hash(seed as u32, (seed >> 32) as u32)
 }

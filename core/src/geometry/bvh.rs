@@ -20,6 +20,11 @@ pub struct Bvh {
     leaves: Vec<([Vec3; 3], u32)>,
 }
 
+/// What a bake asks for hits.
+pub fn tree(triangles: &[[Vec3; 3]]) -> Bvh {
+    Bvh::new(triangles)
+}
+
 /// A triangle with a box a little too large, so that rounding inside the tree loses no hit.
 struct Padded<'a>(&'a [Vec3; 3]);
 

@@ -17,6 +17,8 @@ pub use bvh::*;
 pub use hemisphere::*;
 #[cfg(feature = "alloc")]
 pub use mesh::*;
+#[cfg(not(feature = "bvh"))]
+pub use occluders::tree;
 pub use occluders::{BruteForce, Occluders};
 pub use ray::*;
 pub use sobol::*;

@@ -18,6 +18,12 @@ pub trait Occluders: Sync {
 #[derive(Clone, Copy, Debug)]
 pub struct BruteForce<'a>(pub &'a [[Vec3; 3]]);
 
+/// What a bake asks for hits: without the feature `bvh` every triangle is tried.
+#[cfg(not(feature = "bvh"))]
+pub fn tree(triangles: &[[Vec3; 3]]) -> BruteForce<'_> {
+    BruteForce(triangles)
+}
+
 impl BruteForce<'_> {
     fn hits<'a>(&'a self, ray: &Ray) -> impl Iterator<Item = Hit> + 'a {
         let (sheared, end) = (ShearedRay::new(ray), ray.end);

@@ -1,9 +1,11 @@
 //! Light sources and the irradiance that they give at a point, before anything stands in between.
 
 mod area;
+mod direct;
 mod falloff;
 
 pub use area::*;
+pub use direct::*;
 pub use falloff::*;
 
 use alloc::string::String;

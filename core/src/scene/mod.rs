@@ -1,8 +1,10 @@
 //! What is baked: surfaces with their materials, and lights.
 
 mod cornell;
+mod world;
 
 pub use cornell::*;
+pub use world::*;
 
 use alloc::string::String;
 use alloc::vec::Vec;

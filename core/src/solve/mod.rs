@@ -73,8 +73,11 @@ mod tests {
     }
 
     fn solvers<S: Spectrum>() -> [Solver<S>; 3] {
-        let in_place: Solver<S> = |system, b, _, tolerance, sweeps| gauss_seidel(system, b, tolerance, sweeps);
-        [jacobi, in_place, chebyshev]
+        [
+            |system, b, scratch, tolerance, sweeps| jacobi(system, b, scratch, tolerance, sweeps),
+            |system, b, _, tolerance, sweeps| gauss_seidel(system, b, tolerance, sweeps),
+            |system, b, scratch, tolerance, sweeps| chebyshev(system, b, scratch, tolerance, sweeps),
+        ]
     }
 
     /// In a closed enclosure of uniform rho and e, every patch ends at b = e / (1 - rho).

@@ -1,0 +1,69 @@
+//! What a scene and its settings must be before a bake begins.
+
+use alloc::format;
+use alloc::string::String;
+
+use super::{BakeError, BakeSettings};
+use crate::geometry::Mesh;
+use crate::lightmap::Resolution;
+use crate::scene::{Receiver, Scene};
+
+/// Refuses what cannot be baked, with the name of the culprit.
+pub(super) fn check(scene: &Scene, settings: &BakeSettings) -> Result<(), BakeError> {
+    check_settings(settings)?;
+    scene.meshes.iter().try_for_each(check_mesh)?;
+    for surface in &scene.surfaces {
+        let (name, materials, meshes) = (&surface.name, scene.materials.len(), scene.meshes.len());
+        if surface.mesh >= meshes || surface.material >= materials {
+            return invalid(format!("surface \"{name}\" names a mesh or a material that the scene does not have"));
+        }
+        if !surface.transform.is_finite() {
+            return invalid(format!("the transform of surface \"{name}\" is not finite; mend it or leave it out"));
+        }
+        if matches!(surface.receiver, Receiver::Lightmap { density } if !(density > 0.0 && density.is_finite())) {
+            return invalid(format!("the density factor of surface \"{name}\" is not positive; 1 is usual"));
+        }
+    }
+    let receives = |receiver: &Receiver| *receiver != Receiver::Nothing;
+    let triangles = |mesh: usize| scene.meshes[mesh].triangles.len();
+    if !scene.surfaces.iter().any(|surface| receives(&surface.receiver) && triangles(surface.mesh) > 0) {
+        return Err(BakeError::NothingToBake);
+    }
+    let emits = scene.surfaces.iter().any(|surface| surface.casts && scene.materials[surface.material].is_emissive());
+    if scene.lights.is_empty() && !emits && scene.sky.max_element() <= 0.0 {
+        return Err(BakeError::NoLight);
+    }
+    Ok(())
+}
+
+fn check_settings(settings: &BakeSettings) -> Result<(), BakeError> {
+    match settings.layout.resolution {
+        Resolution::TexelsPerMeter(density) if !(density > 0.0 && density.is_finite()) => {
+            invalid(format!("{density} texels per meter cannot be; 4 to 64 are usual"))
+        }
+        Resolution::Texels(0) => invalid(String::from("a bake needs at least one texel")),
+        _ => Ok(()),
+    }
+}
+
+fn check_mesh(mesh: &Mesh) -> Result<(), BakeError> {
+    let vertices = mesh.positions.len();
+    let lists = [mesh.normals.len(), mesh.uv_0.len(), mesh.uv_1.len(), mesh.colors.len()]
+        .map(|len| len == 0 || len == vertices);
+    if lists.contains(&false) {
+        return invalid(format!(
+            "mesh \"{}\" has {vertices} positions and another number of normals, coordinates or colors",
+            mesh.name
+        ));
+    }
+    match mesh.triangles.iter().flatten().max() {
+        Some(&last) if last as usize >= vertices => {
+            invalid(format!("mesh \"{}\" has {vertices} vertices, and a triangle names vertex {last}", mesh.name))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn invalid<T>(what: String) -> Result<T, BakeError> {
+    Err(BakeError::Invalid(what))
+}

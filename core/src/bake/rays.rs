@@ -1,0 +1,40 @@
+//! What each quality spends.
+
+use super::Quality;
+use crate::lightmap::{GatherSettings, ShadowRays};
+
+/// Rays for each purpose. Counts are powers of two, as Sobol points like them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RayBudget {
+    /// For the row of form factors of a patch.
+    pub row: u32,
+    /// Patches that a bake has at least, if it has as many texels.
+    pub patches: usize,
+    pub shadow: ShadowRays,
+    pub gather: GatherSettings,
+}
+
+impl From<Quality> for RayBudget {
+    fn from(quality: Quality) -> Self {
+        match quality {
+            Quality::Draft => Self {
+                row: 64,
+                patches: 2048,
+                shadow: ShadowRays { first: 8, sharp: 4, penumbra: 16 },
+                gather: GatherSettings { rays: 16, most_rays: 128, spacing: 0.25, contrast: 0.15 },
+            },
+            Quality::Medium => Self {
+                row: 128,
+                patches: 8192,
+                shadow: ShadowRays { first: 16, sharp: 8, penumbra: 64 },
+                gather: GatherSettings { rays: 64, most_rays: 512, spacing: 0.12, contrast: 0.08 },
+            },
+            Quality::High => Self {
+                row: 256,
+                patches: 16384,
+                shadow: ShadowRays { first: 32, sharp: 16, penumbra: 256 },
+                gather: GatherSettings { rays: 256, most_rays: 2048, spacing: 0.06, contrast: 0.04 },
+            },
+        }
+    }
+}

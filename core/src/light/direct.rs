@@ -1,0 +1,89 @@
+//! A light prepared for shadow rays: what it gives unoccluded, and where to look for what occludes it.
+
+use glam::{Vec2, Vec3};
+
+use super::{AreaLight, DirectionalLight, LightSource, PointLight, SpotLight};
+use crate::geometry::{cone_direction, tangents};
+use crate::math;
+
+/// A light prepared for shadow rays.
+#[derive(Clone, Debug)]
+pub enum DirectLight {
+    /// A point or a sphere.
+    Point(PointLight),
+    /// A point or a sphere inside a cone.
+    Spot(SpotLight),
+    /// From far away.
+    Directional(DirectionalLight),
+    /// Flat emitters.
+    Area(AreaLight),
+}
+
+/// A ray that asks whether a point of a light is visible.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowRay {
+    /// From the lit point towards the light.
+    pub direction: Vec3,
+    /// Length in multiples of `direction`: 1 ends at the light.
+    pub end: f32,
+    /// Which share of the irradiance comes along this ray, in any unit.
+    pub weight: f32,
+}
+
+impl From<&LightSource> for DirectLight {
+    fn from(source: &LightSource) -> Self {
+        match source {
+            LightSource::Point(light) => Self::Point(*light),
+            LightSource::Spot(light) => Self::Spot(*light),
+            LightSource::Directional(light) => Self::Directional(*light),
+            LightSource::Rect(light) => Self::Area(light.into()),
+        }
+    }
+}
+
+impl DirectLight {
+    /// Irradiance in lux at a point with this normal of length 1, with nothing between.
+    pub fn irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        match self {
+            Self::Point(light) => light.irradiance(point, normal),
+            Self::Spot(light) => light.irradiance(point, normal),
+            Self::Directional(light) => light.irradiance(normal),
+            Self::Area(light) => light.irradiance(point, normal),
+        }
+    }
+
+    /// Whether the light has no extent, so that one ray tells all.
+    pub fn is_sharp(&self) -> bool {
+        match self {
+            Self::Point(light) | Self::Spot(SpotLight { point: light, .. }) => light.radius == 0.0,
+            Self::Directional(light) => light.angular_diameter == 0.0,
+            Self::Area(_) => false,
+        }
+    }
+
+    /// The shadow ray from a lit point to the point of the light that belongs to a point of the unit square.
+    pub fn shadow_ray(&self, square: Vec2, point: Vec3, normal: Vec3) -> ShadowRay {
+        match self {
+            Self::Point(light) | Self::Spot(SpotLight { point: light, .. }) => sphere_ray(light, square, point, normal),
+            Self::Directional(light) => {
+                let direction = cone_direction(square, -light.direction, math::cos(0.5 * light.angular_diameter));
+                ShadowRay { direction, end: f32::INFINITY, weight: direction.dot(normal).max(0.0) }
+            }
+            Self::Area(light) => {
+                let target = light.point(square);
+                let weight = light.weight(&target, point, normal);
+                ShadowRay { direction: target.position - point, end: 1.0, weight }
+            }
+        }
+    }
+}
+
+/// To the disc that a luminous sphere shows.
+fn sphere_ray(light: &PointLight, square: Vec2, point: Vec3, normal: Vec3) -> ShadowRay {
+    let to_center = light.position - point;
+    let axis = to_center.normalize_or(normal);
+    let (tangent, bitangent) = tangents(axis);
+    let foot = crate::geometry::disc(square) * light.radius;
+    let direction = to_center + tangent * foot.x + bitangent * foot.y;
+    ShadowRay { direction, end: 1.0, weight: direction.normalize_or_zero().dot(normal).max(0.0) }
+}

@@ -1,0 +1,78 @@
+//! Indirect light smoothed where it was gathered texel by texel, as far as what is seen is far away.
+
+use alloc::vec::Vec;
+
+use glam::Vec3;
+
+use super::{Gathered, Texel, Texels};
+use crate::math;
+use crate::parallel::Workers;
+use crate::progress::{Cancelled, Progress};
+
+/// Width of the filter as a share of the harmonic mean distance of what a texel sees.
+const WIDTH: f32 = 0.06;
+/// Widest filter, as a standard deviation in texels.
+const WIDEST: f32 = 2.0;
+/// Texels to each side that are looked at.
+const REACH: i32 = 4;
+
+/// Indirect light after filtering.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Smooth {
+    /// Irradiance / pi.
+    pub irradiance: Vec3,
+    /// Variance of `irradiance`, mean over the channels.
+    pub variance: f32,
+}
+
+/// Smooths gathered irradiance by a Gaussian whose width follows the distance of what each texel sees.
+///
+/// Contact shadows stay as sharp as they are, because contacts see near things. Only texels of the same chart with
+/// similar normals mix.
+pub fn filter(
+    gathered: &[Gathered],
+    texels: &Texels,
+    is_valid: &[bool],
+    workers: &Workers,
+    progress: &Progress,
+) -> Result<Vec<Smooth>, Cancelled> {
+    workers.map(gathered.len(), 1024, progress, |range| {
+        range.map(|index| filtered(index, gathered, texels, is_valid)).collect()
+    })
+}
+
+fn filtered(index: usize, gathered: &[Gathered], texels: &Texels, is_valid: &[bool]) -> Smooth {
+    let own = &gathered[index];
+    // Interpolated values and nodes of wide cells are smooth already.
+    let unfiltered = Smooth { irradiance: own.irradiance, variance: own.variance };
+    if own.width != 1 {
+        return unfiltered;
+    }
+    let texel = &texels.list[index];
+    let sigma = (WIDTH * own.distance / math::sqrt(texel.area.max(1e-12))).min(WIDEST);
+    if sigma < 0.3 {
+        return unfiltered;
+    }
+    let reach = (math::ceil(2.0 * sigma) as i32).min(REACH);
+    let (mut sum, mut variance, mut weights) = (Vec3::ZERO, 0.0, 0.0);
+    for y in -reach..=reach {
+        for x in -reach..=reach {
+            let Some(other) = neighbor(texel, texels, is_valid, x, y) else { continue };
+            let node = &gathered[other];
+            // Neither mixes far into what the other sees near.
+            let narrow = sigma.min(sigma * node.distance / own.distance.max(1e-9)).max(0.2);
+            let weight = math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow));
+            sum += node.irradiance * weight;
+            variance += node.variance * weight * weight;
+            weights += weight;
+        }
+    }
+    Smooth { irradiance: sum / weights, variance: variance / (weights * weights) }
+}
+
+fn neighbor(texel: &Texel, texels: &Texels, is_valid: &[bool], x: i32, y: i32) -> Option<usize> {
+    let [column, row] = texel.pixel.map(i32::from);
+    let other = texels.at_pixel(u32::from(texel.image), column + x, row + y)? as usize;
+    let is_near = texels.list[other].chart == texel.chart && texels.list[other].normal.dot(texel.normal) > 0.95;
+    (is_valid[other] && is_near).then_some(other)
+}

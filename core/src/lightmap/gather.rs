@@ -1,0 +1,234 @@
+//! Light that reaches a texel from all other surfaces: gathered at nodes, interpolated between them.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use glam::Vec3;
+
+use super::{Texel, Texels};
+use crate::geometry::{Hit, Occluders, Sobol, cosine_direction, hash};
+use crate::parallel::Workers;
+use crate::progress::{Cancelled, Progress};
+use crate::transport::Tracer;
+
+/// How densely light is gathered, and with how many rays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GatherSettings {
+    /// Rays of a node that stands for one texel; one that stands for a wider cell has more, with its width.
+    pub rays: u32,
+    /// Most rays of a node.
+    pub most_rays: u32,
+    /// Cells are at most this share of the harmonic mean distance of what their corners see.
+    pub spacing: f32,
+    /// Cells whose corners differ by more than this share of their mean are split.
+    pub contrast: f32,
+}
+
+/// What a node saw.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gathered {
+    /// Irradiance / pi.
+    pub irradiance: Vec3,
+    /// Variance of `irradiance`, mean over the channels, from two independent halves of the rays.
+    pub variance: f32,
+    /// Harmonic mean distance of what was seen, in meters.
+    pub distance: f32,
+    /// Texels for which the node stands, along one side; 0: no node, the value is interpolated.
+    pub width: u8,
+}
+
+/// All that gathering needs to know.
+pub struct Gather<'a, O, R> {
+    /// The receivers.
+    pub texels: &'a Texels,
+    /// Which texels count.
+    pub is_valid: &'a [bool],
+    /// Sends the rays.
+    pub tracer: &'a Tracer<'a, O>,
+    /// Radiance that leaves a hit towards the ray, in cd/m2.
+    pub radiance: R,
+    /// Radiance of what lies beyond the scene.
+    pub sky: Vec3,
+    /// How densely.
+    pub settings: GatherSettings,
+    /// Of all random decisions.
+    pub seed: u32,
+}
+
+/// A square of texels between four corners, in an image.
+#[derive(Clone, Copy)]
+struct Cell {
+    image: u16,
+    column: u16,
+    row: u16,
+}
+
+/// The widest cells.
+const WIDEST: u16 = 8;
+
+impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
+    /// Gathers at nodes and interpolates: one entry for each texel, zero for those that are not valid.
+    ///
+    /// Cells of 8 x 8 texels are split until their corners lie close enough for what they see, down to single texels.
+    pub fn run(&self, workers: &Workers, progress: &Progress) -> Result<Vec<Gathered>, Cancelled> {
+        let mut gathered = vec![Gathered::default(); self.texels.list.len()];
+        let mut is_done = vec![false; self.texels.list.len()];
+        let mut cells = self.widest_cells();
+        let mut width = WIDEST;
+        while width > 1 {
+            let corners = cells.iter().flat_map(|cell| self.corners(cell, width)).flatten();
+            self.gather_at(corners, width as u8, &mut gathered, &mut is_done, workers, progress)?;
+            let mut smaller = Vec::new();
+            for cell in &cells {
+                match self.accepted(cell, width, &gathered) {
+                    Some(corners) => self.interpolate(cell, width, corners, &mut gathered, &mut is_done),
+                    None => smaller.extend(cell.quarters(width / 2)),
+                }
+            }
+            cells = smaller;
+            width /= 2;
+        }
+        let rest = (0..gathered.len()).filter(|&texel| self.is_valid[texel]);
+        self.gather_at(rest, 1, &mut gathered, &mut is_done, workers, progress)?;
+        Ok(gathered)
+    }
+
+    fn gather_at(
+        &self,
+        wanted: impl Iterator<Item = usize>,
+        width: u8,
+        gathered: &mut [Gathered],
+        is_done: &mut [bool],
+        workers: &Workers,
+        progress: &Progress,
+    ) -> Result<(), Cancelled> {
+        let mut nodes: Vec<usize> = Vec::new();
+        for texel in wanted {
+            if !is_done[texel] {
+                is_done[texel] = true;
+                nodes.push(texel);
+            }
+        }
+        let rays = (self.settings.rays * u32::from(width)).min(self.settings.most_rays);
+        let found = workers.map(nodes.len(), 32, progress, |range| {
+            nodes[range].iter().map(|&texel| Gathered { width, ..self.node(texel, rays) }).collect()
+        })?;
+        nodes.into_iter().zip(found).for_each(|(texel, node)| gathered[texel] = node);
+        Ok(())
+    }
+
+    /// Gathers at one texel. Two halves of the rays follow sequences of their own.
+    fn node(&self, index: usize, rays: u32) -> Gathered {
+        let texel = &self.texels.list[index];
+        let flat = self.tracer.world.normals[texel.triangle as usize];
+        let mut halves = [Vec3::ZERO; 2];
+        let mut inverse_distances = 0.0;
+        for (half, sum) in halves.iter_mut().enumerate() {
+            let seed = hash(self.seed, 2 * index as u32 + half as u32);
+            let sequence = Sobol::new(seed);
+            for k in 0..rays / 2 {
+                let direction = above(cosine_direction(sequence.square(k), texel.normal), flat);
+                let ray = self.tracer.leave(texel.position, flat, direction, f32::INFINITY);
+                match self.tracer.nearest(&ray, hash(seed, k)) {
+                    Some(hit) => {
+                        inverse_distances += 1.0 / hit.distance.max(1e-6);
+                        *sum += (self.radiance)(&hit);
+                    }
+                    None => *sum += self.sky,
+                }
+            }
+        }
+        self.tracer.count(rays as usize);
+        let half = (rays / 2) as f32;
+        let [a, b] = halves.map(|sum| sum / half);
+        Gathered {
+            irradiance: (a + b) * 0.5,
+            variance: (a - b).length_squared() / 12.0,
+            distance: 2.0 * half / f32::max(inverse_distances, 1e-9),
+            width: 0,
+        }
+    }
+
+    fn widest_cells(&self) -> Vec<Cell> {
+        let mut cells: Vec<Cell> = Vec::new();
+        let valid = self.texels.list.iter().zip(self.is_valid).filter(|(_, is_valid)| **is_valid);
+        for (Texel { image, pixel, .. }, _) in valid {
+            let [column, row] = pixel.map(|position| position / WIDEST * WIDEST);
+            // The list of texels is ordered by blocks of the same size.
+            if !cells.last().is_some_and(|last| (last.image, last.column, last.row) == (*image, column, row)) {
+                cells.push(Cell { image: *image, column, row });
+            }
+        }
+        cells
+    }
+
+    /// The valid texels at the corners of a cell, in the order of [`super::quarter`].
+    fn corners(&self, cell: &Cell, width: u16) -> [Option<usize>; 4] {
+        core::array::from_fn(|k| self.valid_at(cell, [(k as u16 & 1) * width, (k as u16 >> 1) * width]))
+    }
+
+    fn valid_at(&self, cell: &Cell, offset: [u16; 2]) -> Option<usize> {
+        let (x, y) = (i32::from(cell.column + offset[0]), i32::from(cell.row + offset[1]));
+        let texel = self.texels.at_pixel(u32::from(cell.image), x, y)? as usize;
+        self.is_valid[texel].then_some(texel)
+    }
+
+    /// The corners of a cell if values between them may be interpolated.
+    fn accepted(&self, cell: &Cell, width: u16, gathered: &[Gathered]) -> Option<[usize; 4]> {
+        let [Some(a), Some(b), Some(c), Some(d)] = self.corners(cell, width) else { return None };
+        let corners = [a, b, c, d];
+        let first = &self.texels.list[a];
+        let is_flat = corners.iter().all(|&corner| self.belongs(first, corner));
+        let side = self.texels.list[a].position.distance(self.texels.list[d].position) * 0.707;
+        let nearest = corners.iter().map(|&corner| gathered[corner].distance).fold(f32::INFINITY, f32::min);
+        let values = corners.map(|corner| gathered[corner].irradiance);
+        let mean = values.iter().sum::<Vec3>() * 0.25;
+        let differs = |value: &Vec3| (*value - mean).abs().max_element() > self.settings.contrast * mean.max_element();
+        (is_flat && side <= self.settings.spacing * nearest && !values.iter().any(differs)).then_some(corners)
+    }
+
+    /// Whether a texel lies on the same chart as another, in the same direction.
+    fn belongs(&self, first: &Texel, texel: usize) -> bool {
+        let other = &self.texels.list[texel];
+        other.chart == first.chart && other.normal.dot(first.normal) > 0.99
+    }
+
+    fn interpolate(&self, cell: &Cell, width: u16, corners: [usize; 4], all: &mut [Gathered], is_done: &mut [bool]) {
+        let [a, b, c, d] = corners.map(|corner| all[corner]);
+        let first = self.texels.list[corners[0]];
+        for row in 0..width {
+            for column in 0..width {
+                let Some(texel) = self.valid_at(cell, [column, row]) else { continue };
+                if is_done[texel] || !self.belongs(&first, texel) {
+                    continue;
+                }
+                let (u, v) = (f32::from(column) / f32::from(width), f32::from(row) / f32::from(width));
+                let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
+                let mix = |pick: fn(&Gathered) -> f32| {
+                    [a, b, c, d].iter().zip(weights).map(|(node, weight)| pick(node) * weight).sum::<f32>()
+                };
+                let irradiance = [a, b, c, d].iter().zip(weights).map(|(node, weight)| node.irradiance * weight).sum();
+                let (variance, distance) = (mix(|node| node.variance), mix(|node| node.distance));
+                all[texel] = Gathered { irradiance, variance, distance, width: 0 };
+                is_done[texel] = true;
+            }
+        }
+    }
+}
+
+impl Cell {
+    fn quarters(self, width: u16) -> [Self; 4] {
+        core::array::from_fn(|k| Self {
+            column: self.column + (k as u16 & 1) * width,
+            row: self.row + (k as u16 >> 1) * width,
+            ..self
+        })
+    }
+}
+
+/// A direction below the plane of a triangle, as smooth normals give it, mirrored to above.
+#[inline]
+fn above(direction: Vec3, flat: Vec3) -> Vec3 {
+    let height = direction.dot(flat);
+    if height < 0.0 { direction - flat * (2.0 * height) } else { direction }
+}

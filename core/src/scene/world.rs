@@ -1,0 +1,185 @@
+//! All triangles of a scene in world space, and what a ray that meets one of them finds there.
+
+use alloc::vec::Vec;
+
+use glam::{Mat3A, Vec2, Vec3, Vec4};
+
+use super::{Scene, Surface};
+use crate::geometry::{Hit, Mesh, normal_and_area};
+use crate::material::Material;
+
+/// The triangles of a scene in world space. Those without area or with infinite corners are left out.
+#[derive(Clone, Debug)]
+pub struct World<'a> {
+    /// What the triangles belong to.
+    pub scene: &'a Scene,
+    /// Corners of each triangle, counter-clockwise seen from the front; those that block light come first.
+    pub corners: Vec<[Vec3; 3]>,
+    /// For each triangle its normal of length 1.
+    pub normals: Vec<Vec3>,
+    /// For each triangle where it comes from.
+    pub sources: Vec<Source>,
+    /// For each triangle what rays must know of its material.
+    pub sides: Vec<Sides>,
+    /// How many triangles, from the first, block light.
+    pub blockers: usize,
+    /// How many triangles were left out for want of area.
+    pub degenerate: usize,
+    /// How many triangles were left out because a corner is not finite.
+    pub not_finite: usize,
+}
+
+/// Where a triangle comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Index of the surface in the scene.
+    pub surface: u32,
+    /// Index of the triangle in its mesh.
+    pub triangle: u32,
+}
+
+/// What rays must know of the material of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sides {
+    /// Whether no light passes anywhere.
+    pub is_opaque: bool,
+    /// Whether the back reflects and emits too.
+    pub both: bool,
+}
+
+impl<'a> World<'a> {
+    /// Carries all triangles to their places.
+    pub fn new(scene: &'a Scene) -> Self {
+        let mut world = Self {
+            scene,
+            corners: Vec::new(),
+            normals: Vec::new(),
+            sources: Vec::new(),
+            sides: Vec::new(),
+            blockers: 0,
+            degenerate: 0,
+            not_finite: 0,
+        };
+        world.add_surfaces(|surface| surface.casts);
+        world.blockers = world.corners.len();
+        world.add_surfaces(|surface| !surface.casts);
+        world
+    }
+
+    fn add_surfaces(&mut self, belongs: impl Fn(&Surface) -> bool) {
+        let scene = self.scene;
+        for (index, surface) in scene.surfaces.iter().enumerate().filter(|(_, surface)| belongs(surface)) {
+            for triangle in 0..scene.meshes[surface.mesh].triangles.len() {
+                self.add_triangle(Source { surface: index as u32, triangle: triangle as u32 });
+            }
+        }
+    }
+
+    fn add_triangle(&mut self, source: Source) {
+        let (surface, mesh) = (self.surface_of(source), self.mesh_of(source));
+        let corners = self.vertices(source).map(|vertex| match mesh.positions.get(vertex) {
+            Some(&position) => surface.transform.transform_point3(position),
+            None => Vec3::NAN,
+        });
+        if !corners.iter().all(|corner| corner.is_finite()) {
+            self.not_finite += 1;
+        } else if let Some((normal, _)) = normal_and_area(&corners) {
+            self.corners.push(corners);
+            self.normals.push(normal);
+            self.sources.push(source);
+            let material = &self.scene.materials[surface.material];
+            self.sides.push(Sides { is_opaque: material.is_opaque(), both: material.double_sided });
+        } else {
+            self.degenerate += 1;
+        }
+    }
+
+    /// The vertices of a triangle in the order of its world corners: a mirrored surface turns its winding around.
+    pub fn vertices(&self, source: Source) -> [usize; 3] {
+        let [a, b, c] = self.mesh_of(source).triangles[source.triangle as usize].map(|vertex| vertex as usize);
+        if is_mirrored(self.surface_of(source)) { [a, c, b] } else { [a, b, c] }
+    }
+
+    /// The material of a triangle.
+    #[inline]
+    pub fn material(&self, triangle: u32) -> &'a Material {
+        &self.scene.materials[self.surface_of(self.sources[triangle as usize]).material]
+    }
+
+    /// Diffuse reflectance at a hit, in `[0, 1]`.
+    pub fn reflectance(&self, hit: &Hit) -> Vec3 {
+        let [uv_0, uv_1] = self.uvs(hit);
+        self.material(hit.triangle).reflectance_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
+    }
+
+    /// Emitted radiance at a hit, in cd/m2.
+    pub fn emission(&self, hit: &Hit) -> Vec3 {
+        let material = self.material(hit.triangle);
+        if !material.is_emissive() {
+            return Vec3::ZERO;
+        }
+        let [uv_0, uv_1] = self.uvs(hit);
+        material.emission_at(&self.scene.textures, uv_0, uv_1)
+    }
+
+    /// The share of light that the surface blocks at a hit, in `[0, 1]`.
+    #[inline]
+    pub fn opacity(&self, hit: &Hit) -> f32 {
+        if self.sides[hit.triangle as usize].is_opaque {
+            return 1.0;
+        }
+        let material = self.material(hit.triangle);
+        let [uv_0, uv_1] = self.uvs(hit);
+        material.alpha_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
+    }
+
+    /// The interpolated normal at a point of a triangle, of length 1; that of the triangle where the mesh has none.
+    pub fn shading_normal(&self, hit: &Hit) -> Vec3 {
+        let flat = self.normals[hit.triangle as usize];
+        let smooth = hit.interpolate(self.corner_normals(hit.triangle)).normalize_or(flat);
+        if smooth.dot(flat) < 0.0 { -smooth } else { smooth }
+    }
+
+    /// The normals at the corners of a triangle, each of length 1 and on its front side.
+    pub fn corner_normals(&self, triangle: u32) -> [Vec3; 3] {
+        let (source, flat) = (self.sources[triangle as usize], self.normals[triangle as usize]);
+        let normals = &self.mesh_of(source).normals;
+        let to_world = Mat3A::from(self.surface_of(source).transform.matrix3).inverse().transpose();
+        self.vertices(source).map(|vertex| {
+            let normal = normals.get(vertex).map_or(flat, |&normal| to_world.mul_vec3(normal).normalize_or(flat));
+            if normal.dot(flat) < 0.0 { flat } else { normal }
+        })
+    }
+
+    /// The box around all corners: its lowest and its highest corner.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let corners = self.corners.iter().flatten();
+        corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &corner| (low.min(corner), high.max(corner)))
+    }
+
+    fn uvs(&self, hit: &Hit) -> [Vec2; 2] {
+        let source = self.sources[hit.triangle as usize];
+        let (mesh, vertices) = (self.mesh_of(source), self.vertices(source));
+        [&mesh.uv_0, &mesh.uv_1]
+            .map(|uvs| if uvs.is_empty() { Vec2::ZERO } else { hit.interpolate(vertices.map(|vertex| uvs[vertex])) })
+    }
+
+    fn color(&self, hit: &Hit) -> Vec4 {
+        let source = self.sources[hit.triangle as usize];
+        let (mesh, vertices) = (self.mesh_of(source), self.vertices(source));
+        if mesh.colors.is_empty() { Vec4::ONE } else { hit.interpolate(vertices.map(|vertex| mesh.colors[vertex])) }
+    }
+
+    fn surface_of(&self, source: Source) -> &'a Surface {
+        &self.scene.surfaces[source.surface as usize]
+    }
+
+    fn mesh_of(&self, source: Source) -> &'a Mesh {
+        &self.scene.meshes[self.surface_of(source).mesh]
+    }
+}
+
+/// Whether the transform of a surface turns its winding around.
+fn is_mirrored(surface: &Surface) -> bool {
+    surface.transform.matrix3.determinant() < 0.0
+}
