@@ -127,10 +127,8 @@ impl Texels {
             let scale = Vec2::new(width as f32, height as f32);
             let corner =
                 |vertex: u32| (placement.min + uv.uv_1[vertex as usize] * (placement.max - placement.min)) * scale;
-            let [a, b, c] = uv.triangles[source.triangle as usize].map(corner);
-            let mirrored = surface.transform.matrix3.determinant() < 0.0;
             self.images.push(placement.image as u32);
-            self.corners.push(if mirrored { [a, c, b] } else { [a, b, c] });
+            self.corners.push(world.in_order(source, uv.triangles[source.triangle as usize].map(corner)));
         }
     }
 

@@ -21,7 +21,10 @@ const THREE_QUARTERS: Vec3 = Vec3::new(0.5, 0.5, 1.0);
 /// inside, at a place from which it sees far. The picture is at least as wide as it is high.
 pub fn overview(scene: &Scene) -> Camera {
     let view = View::new(scene);
-    let Some([low, high]) = view.bounds else { return Camera::perspective(Default::default(), OUTSIDE_FOV) };
+    if view.corners.is_empty() {
+        return Camera::perspective(Default::default(), OUTSIDE_FOV);
+    }
+    let (low, high) = view.bounds();
     let outside = from_outside(low, high);
     if is_enclosed(&view, low.midpoint(high)) && !looks_in(&view, &outside) {
         from_inside(&view, low, high)

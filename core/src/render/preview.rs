@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::view::{Point, View, interpolate};
+use super::view::View;
 use super::{Camera, automatic_ev100, exposure, khronos_pbr_neutral, valid_texels};
 use crate::bake::Bake;
 use crate::geometry::{Hit, Ray};
@@ -77,35 +77,34 @@ impl Picture<'_> {
 
     /// What arrives along a ray, through all transparent layers.
     fn radiance(&self, ray: &Ray) -> Vec3 {
-        let scene = self.view.scene;
         let mut radiance = Vec3::ZERO;
         let mut passing = 1.0;
         let mut layer = None;
         for _ in 0..LAYERS {
             let Some(hit) = self.view.nearest(ray, layer.as_ref()) else { break };
-            let point = self.view.point(&hit);
-            let alpha = point.alpha(scene);
-            radiance += passing * alpha * point.radiance(scene, self.texel(&point, &hit));
-            passing *= 1.0 - alpha;
+            let opacity = self.view.opacity(&hit);
+            let reflected = self.view.reflectance(&hit) * self.baked_texel(&hit).unwrap_or(self.mean);
+            radiance += passing * opacity * (reflected + self.view.emission(&hit));
+            passing *= 1.0 - opacity;
             if passing <= 0.0 {
                 return radiance;
             }
             layer = Some(hit);
         }
-        radiance + passing * scene.sky
+        radiance + passing * self.view.scene.sky
     }
 
-    /// Irradiance / pi at a point.
-    fn texel(&self, point: &Point, hit: &Hit) -> Vec3 {
-        self.baked_texel(point, hit).unwrap_or(self.mean)
-    }
-
-    fn baked_texel(&self, point: &Point, hit: &Hit) -> Option<Vec3> {
-        let placement = (*self.bake.placements.get(point.surface)?)?;
-        let lightmap_uv = self.bake.uvs.get(self.view.scene.surfaces[point.surface].mesh)?.as_ref()?;
-        let uv_1 = interpolate(&lightmap_uv.uv_1, *lightmap_uv.triangles.get(point.triangle)?, hit)?;
-        let uv = placement.min + uv_1 * (placement.max - placement.min);
-        self.bake.images.get(placement.image).map(|image| bilinear(image, uv))
+    /// Irradiance / pi from the lightmap of a surface, if it has one.
+    fn baked_texel(&self, hit: &Hit) -> Option<Vec3> {
+        let source = self.view.sources[hit.triangle as usize];
+        let placement = (*self.bake.placements.get(source.surface as usize)?)?;
+        let mesh = self.view.scene.surfaces[source.surface as usize].mesh;
+        let lightmap_uv = self.bake.uvs.get(mesh)?.as_ref()?;
+        let corners =
+            lightmap_uv.triangles.get(source.triangle as usize)?.map(|vertex| lightmap_uv.uv_1[vertex as usize]);
+        let uv = hit.interpolate(self.view.in_order(source, corners));
+        let image = self.bake.images.get(placement.image)?;
+        Some(bilinear(image, placement.min + uv * (placement.max - placement.min)))
     }
 }
 
@@ -220,6 +219,15 @@ mod tests {
         let preview = take(&square(Material::default()), &bake(|x| Vec3::splat(x as f32 / 16.0)), Some(unit_ev100()));
         assert_eq!(preview.rgb[5], [shown(5.0 / 16.0); 3]);
         assert_eq!(preview.rgb[6], [shown(6.0 / 16.0); 3]);
+    }
+
+    #[test]
+    fn a_mirrored_surface_shows_its_lightmap_mirrored() {
+        let mut scene = square(Material::default());
+        scene.surfaces[0].transform = Affine3A::from_scale(Vec3::new(-1.0, 1.0, 1.0));
+        let preview = take(&scene, &bake(|x| Vec3::splat(x as f32 / 16.0)), Some(unit_ev100()));
+        assert_eq!(preview.rgb[5], [shown(6.0 / 16.0); 3]);
+        assert_eq!(preview.rgb[6], [shown(5.0 / 16.0); 3]);
     }
 
     #[test]

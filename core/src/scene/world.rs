@@ -94,9 +94,15 @@ impl<'a> World<'a> {
         }
     }
 
-    /// The vertices of a triangle in the order of its world corners: a mirrored surface turns its winding around.
+    /// The vertices of a triangle in the order of its world corners.
     pub fn vertices(&self, source: Source) -> [usize; 3] {
-        let [a, b, c] = self.mesh_of(source).triangles[source.triangle as usize].map(|vertex| vertex as usize);
+        let vertices = self.mesh_of(source).triangles[source.triangle as usize];
+        self.in_order(source, vertices.map(|vertex| vertex as usize))
+    }
+
+    /// What belongs to the corners of a triangle of a mesh, in the order of its world corners: a mirrored surface turns
+    /// its winding around.
+    pub fn in_order<T>(&self, source: Source, [a, b, c]: [T; 3]) -> [T; 3] {
         if is_mirrored(self.surface_of(source)) { [a, c, b] } else { [a, b, c] }
     }
 
