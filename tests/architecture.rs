@@ -127,7 +127,7 @@ fn root() -> PathBuf {
 }
 
 fn all_sources() -> Vec<Source> {
-    ["core/src", "bevy_plugin/src", "tests", "examples"].into_iter().flat_map(sources).collect()
+    ["core", "bevy_plugin", "tests", "examples"].into_iter().flat_map(sources).collect()
 }
 
 /// All Rust files below a folder of the repository, in the order of their paths.
