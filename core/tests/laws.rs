@@ -65,12 +65,8 @@ fn point_light_over_a_plane() {
 fn other_lights_over_a_plane() {
     let direction = Vec3::new(0.6, -0.8, 0.0);
     let sun = DirectionalLight { direction, illuminance: Vec3::splat(1000.0), angular_diameter: 0.0093 };
-    let spot = SpotLight {
-        point: point([0.0, 2.0, 0.0], 50.0),
-        direction: Vec3::NEG_Y,
-        inner_angle: 0.3,
-        outer_angle: 0.5,
-    };
+    let spot =
+        SpotLight { point: point([0.0, 2.0, 0.0], 50.0), direction: Vec3::NEG_Y, inner_angle: 0.3, outer_angle: 0.5 };
     let panel = RectLight {
         center: Vec3::new(0.0, 1.0, 0.0),
         half_width: Vec3::X * 0.5,
@@ -135,7 +131,7 @@ fn texels_inside_geometry_are_refilled() {
     add_box(&mut scene, "block", [-0.5, -0.01, -0.5], [0.5, 0.5, 0.5], 0, false);
     scene.lights.push(lamp(LightSource::Point(point([0.0, 1.8, 0.0], 100.0))));
     let bake = baked(&scene, &settings(8.0, Quality::Draft));
-    assert!((40..=80).contains(&bake.report.invalid_texels), "{}", bake.report.invalid_texels);
+    assert!((30..=64).contains(&bake.report.invalid_texels), "{}", bake.report.invalid_texels);
     let darkest = bake
         .images
         .iter()

@@ -47,7 +47,9 @@ impl Bvh {
     }
 
     fn traversal(ray: &Ray) -> obvhs::ray::Ray {
-        obvhs::ray::Ray::new(ray.origin.to_array().into(), ray.direction.to_array().into(), 0.0, ray.end)
+        // The tree takes -0 for a negative direction in one place and for a positive one in another.
+        let direction = ray.direction + Vec3::ZERO;
+        obvhs::ray::Ray::new(ray.origin.to_array().into(), direction.to_array().into(), 0.0, ray.end)
     }
 }
 
@@ -110,6 +112,28 @@ mod tests {
             let odd = |hit: &Hit| hit.triangle % 2 == 1;
             assert_eq!(tree.nearest(&ray, odd), all.nearest(&ray, odd));
             assert_eq!(tree.any(&ray, odd), all.any(&ray, odd));
+        }
+    }
+
+    /// Rays along an axis, with zeros of either sign, find what lies there.
+    #[test]
+    fn axis_parallel_rays() {
+        let square = |y: f32| {
+            let [a, b, c, d] = [[-2.0, y, 2.0], [2.0, y, 2.0], [2.0, y, -2.0], [-2.0, y, -2.0]].map(Vec3::from_array);
+            [[a, b, c], [a, c, d]]
+        };
+        let triangles: Vec<_> = [0.0, 1.0, 2.0, 3.0].into_iter().flat_map(square).collect();
+        let tree = Bvh::new(&triangles);
+        for (x, z) in [(-0.0, -0.0), (0.0, -0.0), (-0.0, 0.0), (0.0, 0.0)] {
+            for up in [1.0, -1.0] {
+                let ray = Ray { origin: Vec3::new(-1.7, 0.5, 1.9), direction: Vec3::new(x, up, z), end: 9.0 };
+                let mut met = 0;
+                tree.any(&ray, |_| {
+                    met += 1;
+                    false
+                });
+                assert_eq!(met, if up > 0.0 { 3 } else { 1 }, "{x} {z} {up}");
+            }
         }
     }
 

@@ -50,6 +50,9 @@ pub struct Texels {
     pub corners: Vec<[Vec2; 3]>,
 }
 
+/// What covers less of a texel than this is a rounding of the border of a chart, unless it is all there is of it.
+const LEAST_SHARE: f32 = 0.005;
+
 /// What covers a texel, while that is being found out.
 #[derive(Clone, Copy)]
 struct Cover {
@@ -140,9 +143,11 @@ impl Texels {
         for triangle in 0..self.corners.len() as u32 {
             let [p, q, r] = world.corners[triangle as usize];
             let [a, b, c] = self.corners[triangle as usize];
-            let stretch = (q - p).cross(r - p).length() / (b - a).perp_dot(c - a).abs().max(f32::MIN_POSITIVE);
+            let pixels = 0.5 * (b - a).perp_dot(c - a).abs();
+            let stretch = 0.5 * (q - p).cross(r - p).length() / pixels.max(f32::MIN_POSITIVE);
+            let least = LEAST_SHARE * pixels.min(1.0);
             self.for_each_pixel(triangle, |image, x, y, local| {
-                let Some((share, _)) = clip_to_unit_square(local) else { return };
+                let Some((share, _)) = clip_to_unit_square(local).filter(|(share, _)| *share > least) else { return };
                 let claim = share + if contains(&local, Vec2::splat(0.5)) { 1.0 } else { 0.0 };
                 let cover = &mut covers[image][(y * self.sizes[image][0] + x) as usize];
                 cover.area += share * stretch;

@@ -41,15 +41,24 @@ impl<'a, O: Occluders> Tracer<'a, O> {
     }
 
     /// The nearest hit. A surface that lets a share of the light through is met with the rest as probability, decided
-    /// by `seed`.
+    /// by `seed`. Where two one-sided surfaces lie back to back, the one that faces the ray is met.
     #[inline]
     pub fn nearest(&self, ray: &Ray, seed: u32) -> Option<Hit> {
-        self.occluders.nearest(ray, |hit| {
-            self.world.sides[hit.triangle as usize].is_opaque || {
-                let chance = hash(seed, hit.triangle) as f32 / 4_294_967_296.0;
-                chance < self.world.opacity(hit)
-            }
-        })
+        let hit = self.occluders.nearest(ray, |hit| self.blocks(hit, seed))?;
+        if hit.front || self.world.sides[hit.triangle as usize].both {
+            return Some(hit);
+        }
+        let end = hit.distance + 4.0 * self.lift / ray.direction.length();
+        let facing = self.occluders.nearest(&Ray { end, ..*ray }, |other| other.front && self.blocks(other, seed));
+        Some(facing.unwrap_or(hit))
+    }
+
+    #[inline]
+    fn blocks(&self, hit: &Hit, seed: u32) -> bool {
+        self.world.sides[hit.triangle as usize].is_opaque || {
+            let chance = hash(seed, hit.triangle) as f32 / 4_294_967_296.0;
+            chance < self.world.opacity(hit)
+        }
     }
 
     /// The share of light that passes along a ray, in `[0, 1]`.

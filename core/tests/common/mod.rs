@@ -21,11 +21,7 @@ pub fn baked(scene: &Scene, settings: &BakeSettings) -> Bake {
 
 /// A diffuse material of one grey.
 pub fn grey(reflectance: f32, emission: f32) -> Material {
-    Material {
-        base_color: Vec3::splat(reflectance).extend(1.0),
-        emissive: Vec3::splat(emission),
-        ..Default::default()
-    }
+    Material { base_color: Vec3::splat(reflectance).extend(1.0), emissive: Vec3::splat(emission), ..Default::default() }
 }
 
 /// Adds a quadrilateral, counter-clockwise seen from its front, and returns the index of its surface.
@@ -77,7 +73,8 @@ pub fn room(low: [f32; 3], high: [f32; 3], material: Material) -> Scene {
 
 /// The lightmap at a point of a surface that faces this way, bilinear as a GPU samples it.
 pub fn lookup(scene: &Scene, bake: &Bake, point: Vec3, normal: Vec3) -> Vec3 {
-    let extent = scene.meshes.iter().flat_map(|mesh| &mesh.positions).fold(0.0_f32, |m, p| m.max(p.abs().max_element()));
+    let extent =
+        scene.meshes.iter().flat_map(|mesh| &mesh.positions).fold(0.0_f32, |m, p| m.max(p.abs().max_element()));
     for (index, surface) in scene.surfaces.iter().enumerate() {
         let (Some(placement), Some(uv)) = (bake.placements[index], &bake.uvs[surface.mesh]) else { continue };
         for triangle in &uv.triangles {
