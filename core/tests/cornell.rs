@@ -9,9 +9,11 @@ use glam::Vec3;
 use radiosity::bake::Quality;
 use radiosity::scene::cornell_box;
 
+type Published = (&'static str, [f32; 3], [f32; 3], [f32; 3]);
+
 /// Name, position in millimeters, normal, and irradiance at 620, 548 and 452 nm for a lamp of radiance 1, known to
 /// 0.1 %.
-const POINTS: [(&str, [f32; 3], [f32; 3], [f32; 3]); 11] = [
+const POINTS: [Published; 11] = [
     ("floor a", [450.0, 0.0, 120.0], [0.0, 1.0, 0.0], [0.0438596, 0.0381398, 0.0372322]),
     ("floor b", [278.0, 0.0, 200.0], [0.0, 1.0, 0.0], [0.0609747, 0.0569603, 0.0567498]),
     ("floor c", [100.0, 0.0, 450.0], [0.0, 1.0, 0.0], [0.0478897, 0.0536277, 0.0463999]),

@@ -123,7 +123,7 @@ impl<O: Occluders> Stage<'_, O> {
 
     /// Direct irradiance / pi on a patch without texels on its side, from a few points of it.
     fn direct_on(&self, patch: &Patch, index: usize, lights: &[DirectLight]) -> Vec3 {
-        let sequence = Sobol::new(hash(self.seed ^ 0x0d19_ec7, index as u32));
+        let sequence = Sobol::new(hash(self.seed ^ 0x00d1_9ec7, index as u32));
         let mut sum = Vec3::ZERO;
         for k in 0..DIRECT_POINTS {
             let (point, normal) = self.patches.point(self.world(), self.texels, patch, &sequence, k);

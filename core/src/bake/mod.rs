@@ -5,19 +5,17 @@ mod bounce;
 mod check;
 mod emitters;
 mod error;
-mod estimate;
 mod field;
 mod memory;
 mod rays;
 mod report;
 mod settings;
+mod summary;
 
 pub use error::*;
 pub use report::*;
 pub use settings::*;
 
-use alloc::format;
-use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -36,6 +34,7 @@ use crate::transport::Tracer;
 use bounce::{Bounce, Stage as PatchStage};
 use field::Field;
 use rays::RayBudget;
+use summary::Done;
 
 /// A finished bake.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -98,28 +97,26 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter_after(Stage::Finish, &tracer);
     let images = assemble::images(&texels, &is_valid, &patches, &direct, &indirect, &workers, progress)?;
 
-    let valid = is_valid.iter().filter(|is_valid| **is_valid).count();
-    let mut report = Report {
-        triangles: world.blockers,
-        surfaces: layout.placements.iter().flatten().count(),
-        texels: images.iter().map(|image| image.texels.len()).sum(),
-        valid_texels: valid,
-        invalid_texels: is_valid.len() - valid,
-        patches: patches.list.len(),
+    let done = Done {
+        world: &world,
+        texels: &texels,
+        is_valid: &is_valid,
+        patches: &patches,
+        rows: &rows,
+        bounce: &bounce,
+        direct: &direct,
+        indirect: &indirect,
+    };
+    let report = Report {
         nodes,
         images: images.len(),
-        texels_per_meter: layout.texels_per_meter,
+        texels: images.iter().map(|image| image.texels.len()).sum(),
         threads: workers.threads(),
         seed: settings.seed,
         estimated_memory_bytes: needed,
-        closure_error: rows.closure_error(),
-        energy_balance: bounce.energy_balance(&patches, &rows, scene.sky),
-        estimated_error: estimate::estimate(&texels, &is_valid, &patches, &bounce, &direct, &indirect),
-        warnings: layout.warnings,
-        ..Report::default()
+        stages: log.finish(&tracer),
+        ..done.report(&layout)
     };
-    report.warnings.extend(warnings(&world, &bounce));
-    report.stages = log.finish(&tracer);
     Ok(Bake { images, uvs: layout.uvs, placements: layout.placements, report })
 }
 
@@ -208,29 +205,6 @@ impl<'a> Log<'a> {
         self.close(tracer.take_count());
         self.stages
     }
-}
-
-/// What the user should know about the scene.
-fn warnings(world: &World, bounce: &Bounce) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if world.not_finite > 0 {
-        warnings.push(format!(
-            "{} triangles have a corner that is not finite (NaN or infinite) and were left out; mend the mesh",
-            world.not_finite
-        ));
-    }
-    if world.degenerate > 0 {
-        warnings.push(format!("{} triangles without area were left out", world.degenerate));
-    }
-    if bounce.lowered > 0 {
-        warnings.push(format!(
-            "{} of {} patches reflect more than {} and were taken to reflect that; lower the base color of their materials",
-            bounce.lowered,
-            bounce.reflectance.len(),
-            bounce::LARGEST_REFLECTANCE
-        ));
-    }
-    warnings
 }
 
 fn seed(seed: u64) -> u32 {

@@ -155,7 +155,7 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
         for (Texel { image, pixel, .. }, _) in valid {
             let [column, row] = pixel.map(|position| position / WIDEST * WIDEST);
             // The list of texels is ordered by blocks of the same size.
-            if !cells.last().is_some_and(|last| (last.image, last.column, last.row) == (*image, column, row)) {
+            if cells.last().is_none_or(|last| (last.image, last.column, last.row) != (*image, column, row)) {
                 cells.push(Cell { image: *image, column, row });
             }
         }

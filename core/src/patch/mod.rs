@@ -39,6 +39,9 @@ pub enum Site {
     Triangle(u32),
 }
 
+/// What the triangles of a cluster share: their surface, the axis they face, and a cell of space.
+type ClusterKey = (u32, usize, [i32; 3]);
+
 /// All patches of a bake.
 #[derive(Clone, Debug, Default)]
 pub struct Patches {
@@ -132,7 +135,7 @@ impl Patches {
 
     /// Triangles without texels that share a surface, a direction and a cell of space become one patch.
     fn add_clusters(&mut self, world: &World, texels: &Texels, size: f32) {
-        let mut keys: Vec<((u32, usize, [i32; 3]), u32)> = (0..world.blockers as u32)
+        let mut keys: Vec<(ClusterKey, u32)> = (0..world.blockers as u32)
             .filter(|&triangle| texels.images[triangle as usize] == NONE)
             .map(|triangle| {
                 let normal = world.normals[triangle as usize];

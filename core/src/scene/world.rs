@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use glam::{Mat3A, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 use super::{Scene, Surface};
 use crate::geometry::{Hit, Mesh, normal_and_area};
@@ -150,7 +150,7 @@ impl<'a> World<'a> {
     pub fn corner_normals(&self, triangle: u32) -> [Vec3; 3] {
         let (source, flat) = (self.sources[triangle as usize], self.normals[triangle as usize]);
         let normals = &self.mesh_of(source).normals;
-        let to_world = Mat3A::from(self.surface_of(source).transform.matrix3).inverse().transpose();
+        let to_world = self.surface_of(source).transform.matrix3.inverse().transpose();
         self.vertices(source).map(|vertex| {
             let normal = normals.get(vertex).map_or(flat, |&normal| to_world.mul_vec3(normal).normalize_or(flat));
             if normal.dot(flat) < 0.0 { flat } else { normal }

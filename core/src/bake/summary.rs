@@ -1,0 +1,107 @@
+//! What was done and how good it is, from what a bake leaves behind.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use glam::Vec3;
+
+use super::bounce::{Bounce, LARGEST_REFLECTANCE};
+use super::{EstimatedError, Report};
+use crate::lightmap::{Layout, NONE, Smooth, Texels};
+use crate::math;
+use crate::patch::Patches;
+use crate::scene::World;
+use crate::transport::Rows;
+
+/// What a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
+pub(super) struct Done<'a> {
+    pub world: &'a World<'a>,
+    pub texels: &'a Texels,
+    pub is_valid: &'a [bool],
+    pub patches: &'a Patches,
+    pub rows: &'a Rows,
+    pub bounce: &'a Bounce,
+    pub direct: &'a [Vec3],
+    pub indirect: &'a [Smooth],
+}
+
+impl Done<'_> {
+    /// All that these say.
+    pub fn report(&self, layout: &Layout) -> Report {
+        let valid_texels = self.valid().count();
+        let mut warnings = layout.warnings.clone();
+        warnings.extend(self.warnings());
+        Report {
+            triangles: self.world.blockers,
+            surfaces: layout.placements.iter().flatten().count(),
+            valid_texels,
+            invalid_texels: self.is_valid.len() - valid_texels,
+            patches: self.patches.list.len(),
+            texels_per_meter: layout.texels_per_meter,
+            closure_error: self.rows.closure_error(),
+            energy_balance: self.bounce.energy_balance(self.patches, self.rows, self.world.scene.sky),
+            estimated_error: self.estimated_error(),
+            warnings,
+            ..Report::default()
+        }
+    }
+
+    fn valid(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.is_valid.len()).filter(|&index| self.is_valid[index])
+    }
+
+    /// Noise from the two halves of the rays; bias from what texels gathered against what their patches received.
+    ///
+    /// The patches hold one value for a whole cell, and the texels see them at the last bounce only: an error of the
+    /// patches reaches a texel times the reflectance.
+    fn estimated_error(&self) -> EstimatedError {
+        let level = |value: Vec3| f64::from(value.element_sum() / 3.0);
+        let total = |index: usize| level(self.direct[index] + self.indirect[index].irradiance);
+        let count = self.valid().count().max(1) as f64;
+        let mean = self.valid().map(total).sum::<f64>() / count;
+        if mean <= 0.0 {
+            return EstimatedError::default();
+        }
+        let relative = |index: usize| {
+            let scale = total(index) + 0.1 * mean;
+            f64::from(self.indirect[index].variance) / (scale * scale)
+        };
+        let difference = |index: usize| match self.patches.of_texel[index] {
+            NONE => 0.0,
+            patch => {
+                let patch = patch as usize;
+                let difference = self.bounce.indirect[patch] - self.indirect[index].irradiance;
+                level(difference * self.bounce.reflectance[patch])
+            }
+        };
+        EstimatedError {
+            rms: math::sqrt((self.valid().map(relative).sum::<f64>() / count) as f32),
+            bias: (self.valid().map(difference).sum::<f64>() / count / mean) as f32,
+        }
+    }
+
+    /// What the user should know about the scene.
+    fn warnings(&self) -> Vec<String> {
+        let (world, bounce) = (self.world, self.bounce);
+        let mut warnings = Vec::new();
+        if world.not_finite > 0 {
+            warnings.push(format!(
+                "{} triangles have a corner that is not finite (NaN or infinite) and were left out; mend the mesh",
+                world.not_finite
+            ));
+        }
+        if world.degenerate > 0 {
+            warnings.push(format!("{} triangles without area were left out", world.degenerate));
+        }
+        if bounce.lowered > 0 {
+            warnings.push(format!(
+            "{} of {} patches reflect more than {} and were taken to reflect that; lower the base color of their materials",
+            bounce.lowered,
+            bounce.reflectance.len(),
+            LARGEST_REFLECTANCE
+        ));
+        }
+        warnings
+    }
+}
