@@ -31,7 +31,7 @@ use crate::patch::Patches;
 use crate::progress::{Cancelled, Progress, Stage};
 use crate::scene::{Scene, World};
 use crate::transport::Tracer;
-use bounce::{Bounce, Stage as PatchStage};
+use bounce::Stage as PatchStage;
 use field::Field;
 use rays::RayBudget;
 use summary::Done;
@@ -99,7 +99,6 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
 
     let done = Done {
         world: &world,
-        texels: &texels,
         is_valid: &is_valid,
         patches: &patches,
         rows: &rows,

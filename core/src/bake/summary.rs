@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use super::bounce::{Bounce, LARGEST_REFLECTANCE};
 use super::{EstimatedError, Report};
-use crate::lightmap::{Layout, NONE, Smooth, Texels};
+use crate::lightmap::{Layout, NONE, Smooth};
 use crate::math;
 use crate::patch::Patches;
 use crate::scene::World;
@@ -17,7 +17,6 @@ use crate::transport::Rows;
 /// What a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
 pub(super) struct Done<'a> {
     pub world: &'a World<'a>,
-    pub texels: &'a Texels,
     pub is_valid: &'a [bool],
     pub patches: &'a Patches,
     pub rows: &'a Rows,
