@@ -19,13 +19,13 @@ impl From<Quality> for RayBudget {
         match quality {
             Quality::Draft => Self {
                 row: 64,
-                patches: 2048,
+                patches: 1024,
                 shadow: ShadowRays { first: 8, sharp: 4, penumbra: 16 },
                 gather: GatherSettings { rays: 16, most_rays: 128, spacing: 0.25, contrast: 0.15 },
             },
             Quality::Medium => Self {
                 row: 128,
-                patches: 8192,
+                patches: 4096,
                 shadow: ShadowRays { first: 16, sharp: 8, penumbra: 64 },
                 gather: GatherSettings { rays: 64, most_rays: 512, spacing: 0.12, contrast: 0.08 },
             },

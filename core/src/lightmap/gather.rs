@@ -63,6 +63,9 @@ struct Cell {
     row: u16,
 }
 
+/// Texels along the side of a tile that shares a sequence.
+const TILE: u32 = 8;
+
 /// The widest cells.
 const WIDEST: u16 = 8;
 
@@ -118,15 +121,19 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
     }
 
     /// Gathers at one texel. Two halves of the rays follow sequences of their own.
+    ///
+    /// The texels of a tile share a sequence and take one run of its points after the other: each run fills the
+    /// hemisphere evenly, and so do all runs of neighbors together, which is what the filter mixes.
     fn node(&self, index: usize, rays: u32) -> Gathered {
         let texel = &self.texels.list[index];
+        let (tile, place) = self.place_in_tile(texel);
         let flat = self.tracer.world.normals[texel.triangle as usize];
         let mut halves = [Vec3::ZERO; 2];
         let mut inverse_distances = 0.0;
         for (half, sum) in halves.iter_mut().enumerate() {
-            let seed = hash(self.seed, 2 * index as u32 + half as u32);
+            let seed = hash(hash(self.seed, half as u32), tile);
             let sequence = Sobol::new(seed);
-            for k in 0..rays / 2 {
+            for k in place * (rays / 2)..(place + 1) * (rays / 2) {
                 let direction = above(cosine_direction(sequence.square(k), texel.normal), flat);
                 let ray = self.tracer.leave(texel.position, flat, direction, f32::INFINITY);
                 match self.tracer.nearest(&ray, hash(seed, k)) {
@@ -147,6 +154,15 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
             distance: 2.0 * half / f32::max(inverse_distances, 1e-9),
             width: 0,
         }
+    }
+
+    /// The tile of a texel, and its place on a Z-curve through the tile.
+    fn place_in_tile(&self, texel: &Texel) -> (u32, u32) {
+        let [column, row] = texel.pixel.map(u32::from);
+        let [width, _] = self.texels.sizes[usize::from(texel.image)];
+        let tile = (row / TILE) * width.div_ceil(TILE) + column / TILE;
+        let spread = |x: u32| (x & 1) | (x & 2) << 1 | (x & 4) << 2;
+        (hash(tile, u32::from(texel.image)), spread(column % TILE) | spread(row % TILE) << 1)
     }
 
     fn widest_cells(&self) -> Vec<Cell> {
