@@ -56,7 +56,10 @@ pub struct LightmapUv {
     pub origin: UvOrigin,
     /// For each new vertex, the vertex of the mesh whose attributes it repeats.
     pub sources: Vec<u32>,
-    /// For each new vertex, its coordinates in `0..1`, `v` down; together they fill `0..1` in both directions.
+    /// For each new vertex, its coordinates in `0..1` of the rectangle of a surface, `v` down.
+    ///
+    /// Kept ones reach 0 and 1 in both directions, unless a texture uses them too: then they are as they were.
+    /// New ones leave the gutter of 2 texels at the border free.
     pub uv_1: Vec<Vec2>,
     /// As many triangles as the mesh has, in the same order, over the new vertices.
     pub triangles: Vec<[u32; 3]>,

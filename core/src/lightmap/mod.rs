@@ -1,5 +1,7 @@
 //! From charts to the finished lightmaps.
 
+mod atlas;
+mod chart;
 mod clip;
 mod dilate;
 mod direct;
@@ -7,7 +9,15 @@ mod filter;
 mod gather;
 mod image;
 mod layout;
+mod overlap;
+mod plan;
 mod texel;
+mod tile;
+#[cfg(feature = "unwrap")]
+mod unwrap;
+#[cfg(not(feature = "unwrap"))]
+#[path = "unwrap_off.rs"]
+mod unwrap;
 mod validity;
 
 pub use dilate::*;
