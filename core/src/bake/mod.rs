@@ -64,11 +64,11 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let mut log = Log::new(progress);
 
     log.enter(Stage::Unwrap);
-    let layout = layout(scene, &settings.layout, progress)?;
+    let workers = Workers::new(settings.threads);
+    let layout = workers.run(|| layout(scene, &settings.layout, progress))?;
     let needed = memory::check(scene, &layout, budget.row, budget.patches, settings.memory_bytes)?;
 
     log.enter(Stage::Geometry);
-    let workers = Workers::new(settings.threads);
     let world = World::new(scene);
     let tracer = Tracer::new(&world, tree(&world.corners[..world.blockers]));
     let mut texels = Texels::new(&world, &layout);

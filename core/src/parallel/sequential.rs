@@ -20,6 +20,11 @@ impl Workers {
         1
     }
 
+    /// Runs a task.
+    pub fn run<T: Send>(&self, task: impl FnOnce() -> T + Send) -> T {
+        task()
+    }
+
     /// The results of `task` for `0..count`, in order, computed `chunk` at a time.
     pub fn map<T: Send>(
         &self,

@@ -28,6 +28,11 @@ impl Workers {
         self.0.current_num_threads()
     }
 
+    /// Runs a task that brings parallel work of its own on these threads.
+    pub fn run<T: Send>(&self, task: impl FnOnce() -> T + Send) -> T {
+        self.0.install(task)
+    }
+
     /// The results of `task` for `0..count`, in order, computed `chunk` at a time.
     pub fn map<T: Send>(
         &self,

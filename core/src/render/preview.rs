@@ -208,9 +208,9 @@ mod tests {
     }
 
     #[test]
-    fn automatic_exposure_shows_a_white_wall_in_middle_gray() {
+    fn automatic_exposure_shows_a_white_wall_brighter_than_middle_gray() {
         let preview = take(&square(Material::default()), &bake(|_| Vec3::splat(321.0)), None);
-        assert_eq!(preview.rgb, vec![[shown(0.18); 3]; 16]);
+        assert_eq!(preview.rgb, vec![[shown(0.36); 3]; 16]);
     }
 
     /// Texels 4 to 7 hold 4/16 to 7/16: linear along the picture between their centers, one pixel for each texel.

@@ -8,8 +8,8 @@ use crate::math;
 /// EV100 where no texel says what is right: a bright interior, and what Bevy takes by default.
 pub const DEFAULT_EV100: f32 = 9.7;
 
-/// What the geometric mean of a well exposed picture comes to: middle gray.
-const MIDDLE_GRAY: f32 = 0.18;
+/// What a white surface in light of the geometric mean comes to: one that reflects half of it shows in middle gray, 0.18.
+const MEAN_WHITE: f32 = 0.36;
 
 /// The darkest part of the mean that still counts, so that a few black texels do not decide.
 const DARKEST: f32 = 1e-3;
@@ -22,7 +22,7 @@ pub fn exposure(ev100: f32) -> f32 {
     math::exp2(-ev100) / 1.2
 }
 
-/// The EV100 at which the geometric mean of the valid texels becomes middle gray.
+/// The EV100 at which a surface that reflects half of the geometric mean of the valid texels becomes middle gray.
 pub fn automatic_ev100(images: &[LightmapImage]) -> f32 {
     let luminances = || valid_texels(images).map(|texel| texel.dot(LUMINANCE));
     let count = luminances().count() as f64;
@@ -31,7 +31,7 @@ pub fn automatic_ev100(images: &[LightmapImage]) -> f32 {
         return DEFAULT_EV100;
     }
     let log_sum: f64 = luminances().map(|luminance| f64::from(math::log2(luminance.max(DARKEST * mean)))).sum();
-    (log_sum / count) as f32 - math::log2(1.2 * MIDDLE_GRAY)
+    (log_sum / count) as f32 - math::log2(1.2 * MEAN_WHITE)
 }
 
 /// The texels whose own light was computed.
@@ -80,11 +80,11 @@ mod tests {
 
     /// Grays of 10 and 1000 cd/m2 have a geometric mean of 100; neither gutters nor black texels change much.
     #[test]
-    fn automatic_exposure_puts_the_geometric_mean_at_middle_gray() {
+    fn automatic_exposure_puts_half_of_the_geometric_mean_at_middle_gray() {
         let texels = vec![Vec3::splat(10.0), Vec3::splat(1000.0), Vec3::splat(9e9)];
         let states = vec![TexelState::Valid, TexelState::Valid, TexelState::Gutter];
         let ev100 = automatic_ev100(&[image(texels, states)]);
-        assert!((100.0 * exposure(ev100) - 0.18).abs() < 1e-5);
+        assert!((100.0 * exposure(ev100) - 0.36).abs() < 1e-5);
     }
 
     #[test]
