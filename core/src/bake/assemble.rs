@@ -20,36 +20,34 @@ pub(super) fn images(
     workers: &Workers,
     progress: &Progress,
 ) -> Result<Vec<LightmapImage>, Cancelled> {
-    workers.map(texels.sizes.len(), 1, progress, |range| {
+    let finished = workers.map(texels.sizes.len(), 1, progress, |range| {
         range
-            .map(|image| {
-                let mut image = empty(texels, image);
-                for (at, &texel) in texels.index[image.0].iter().enumerate().filter(|(_, texel)| **texel != NONE) {
-                    let index = texel as usize;
-                    image.1.charts[at] = texels.list[index].chart;
-                    image.1.patches[at] = patches.of_texel[index];
-                    image.1.states[at] = if is_valid[index] { TexelState::Valid } else { TexelState::Invalid };
-                    if is_valid[index] {
-                        image.1.texels[at] = (direct[index] + indirect[index].irradiance).max(Vec3::ZERO);
+            .map(|index| {
+                let mut image = empty(texels.sizes[index]);
+                for (at, &texel) in texels.index[index].iter().enumerate().filter(|(_, texel)| **texel != NONE) {
+                    let texel = texel as usize;
+                    image.charts[at] = texels.list[texel].chart;
+                    image.patches[at] = patches.of_texel[texel];
+                    image.states[at] = if is_valid[texel] { TexelState::Valid } else { TexelState::Invalid };
+                    if is_valid[texel] {
+                        image.texels[at] = (direct[texel] + indirect[texel].irradiance).max(Vec3::ZERO);
                     }
                 }
-                dilate(&mut image.1);
-                image.1
+                dilate(&mut image, progress).map(|()| image)
             })
             .collect()
-    })
+    })?;
+    finished.into_iter().collect()
 }
 
-fn empty(texels: &Texels, index: usize) -> (usize, LightmapImage) {
-    let [width, height] = texels.sizes[index];
+fn empty([width, height]: [u32; 2]) -> LightmapImage {
     let count = (width * height) as usize;
-    let image = LightmapImage {
+    LightmapImage {
         width,
         height,
         texels: vec![Vec3::ZERO; count],
         states: vec![TexelState::Empty; count],
         charts: vec![NONE; count],
         patches: vec![NONE; count],
-    };
-    (index, image)
+    }
 }

@@ -70,8 +70,9 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
 
     log.enter(Stage::Geometry);
     let world = World::new(scene);
-    let tracer = Tracer::new(&world, tree(&world.corners[..world.blockers]));
-    let mut texels = Texels::new(&world, &layout);
+    let blockers = world.corners[..world.blockers].to_vec();
+    let tracer = Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
+    let mut texels = Texels::new(&world, &layout, progress)?;
     let baker = Baker { tracer: &tracer, workers: &workers, progress, budget, seed: seed(settings.seed) };
     let is_valid = check_texels(&mut texels, &tracer, &workers, baker.seed(1), progress)?;
 

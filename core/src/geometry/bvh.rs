@@ -21,8 +21,8 @@ pub struct Bvh {
 }
 
 /// What a bake asks for hits.
-pub fn tree(triangles: &[[Vec3; 3]]) -> Bvh {
-    Bvh::new(triangles)
+pub fn tree(triangles: Vec<[Vec3; 3]>) -> Bvh {
+    Bvh::new(&triangles)
 }
 
 /// A triangle with a box a little too large, so that rounding inside the tree loses no hit.

@@ -9,6 +9,9 @@ mod triangle;
 
 mod occluders;
 
+#[cfg(all(feature = "alloc", not(feature = "bvh")))]
+mod no_bvh;
+
 #[cfg(feature = "bvh")]
 mod bvh;
 
@@ -17,8 +20,8 @@ pub use bvh::*;
 pub use hemisphere::*;
 #[cfg(feature = "alloc")]
 pub use mesh::*;
-#[cfg(not(feature = "bvh"))]
-pub use occluders::tree;
+#[cfg(all(feature = "alloc", not(feature = "bvh")))]
+pub use no_bvh::tree;
 pub use occluders::{BruteForce, Occluders};
 pub use ray::*;
 pub use sobol::*;

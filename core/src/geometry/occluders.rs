@@ -14,24 +14,18 @@ pub trait Occluders: Sync {
     fn any(&self, ray: &Ray, stop: impl FnMut(&Hit) -> bool) -> bool;
 }
 
-/// Tries every triangle: for a few triangles, small targets and tests.
+/// Tries every triangle of a list or slice: for a few triangles, small targets and tests.
 #[derive(Clone, Copy, Debug)]
-pub struct BruteForce<'a>(pub &'a [[Vec3; 3]]);
+pub struct BruteForce<T>(pub T);
 
-/// What a bake asks for hits: without the feature `bvh` every triangle is tried.
-#[cfg(not(feature = "bvh"))]
-pub fn tree(triangles: &[[Vec3; 3]]) -> BruteForce<'_> {
-    BruteForce(triangles)
-}
-
-impl BruteForce<'_> {
+impl<T: AsRef<[[Vec3; 3]]>> BruteForce<T> {
     fn hits<'a>(&'a self, ray: &Ray) -> impl Iterator<Item = Hit> + 'a {
         let (sheared, end) = (ShearedRay::new(ray), ray.end);
-        self.0.iter().enumerate().filter_map(move |(index, corners)| sheared.hit(corners, index as u32, end))
+        self.0.as_ref().iter().enumerate().filter_map(move |(index, corners)| sheared.hit(corners, index as u32, end))
     }
 }
 
-impl Occluders for BruteForce<'_> {
+impl<T: AsRef<[[Vec3; 3]]> + Sync> Occluders for BruteForce<T> {
     fn nearest(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
         self.hits(ray).filter(accept).reduce(|nearest, hit| if is_before(&hit, &nearest) { hit } else { nearest })
     }

@@ -9,6 +9,7 @@ use super::clip::clip_to_unit_square;
 use super::{Layout, NONE};
 use crate::geometry::Hit;
 use crate::math;
+use crate::progress::{Cancelled, Progress};
 use crate::scene::World;
 
 /// The side of a block of texels that are kept together in lists, for the sake of caches.
@@ -64,16 +65,20 @@ struct Cover {
 
 impl Texels {
     /// Finds all texels that the receiving surfaces of a world cover, be it ever so little.
-    pub fn new(world: &World, layout: &Layout) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// Where the progress was told to cancel.
+    pub fn new(world: &World, layout: &Layout, progress: &Progress) -> Result<Self, Cancelled> {
         let mut texels = Self { sizes: layout.images.clone(), ..Self::default() };
         texels.place_triangles(world, layout);
         let charts = first_charts(world, layout);
-        let mut covers = texels.cover(world);
-        for (image, covers) in covers.iter_mut().enumerate() {
-            texels.list_image(image, covers, world, layout, &charts);
+        let covers = texels.cover(world, progress)?;
+        for (image, covers) in covers.iter().enumerate() {
+            texels.list_image(image, covers, world, layout, &charts, progress)?;
         }
-        texels.mark_quarters(world);
-        texels
+        texels.mark_quarters(world, progress)?;
+        Ok(texels)
     }
 
     /// The point on its triangle that stands for a texel.
@@ -136,11 +141,12 @@ impl Texels {
     }
 
     /// For each image and texel the triangle that covers it best.
-    fn cover(&self, world: &World) -> Vec<Vec<Cover>> {
+    fn cover(&self, world: &World, progress: &Progress) -> Result<Vec<Vec<Cover>>, Cancelled> {
         let nothing = Cover { triangle: NONE, claim: 0.0, area: 0.0 };
         let mut covers: Vec<Vec<Cover>> =
             self.sizes.iter().map(|[width, height]| vec![nothing; (width * height) as usize]).collect();
         for triangle in 0..self.corners.len() as u32 {
+            progress.check()?;
             let [p, q, r] = world.corners[triangle as usize];
             let [a, b, c] = self.corners[triangle as usize];
             let pixels = 0.5 * (b - a).perp_dot(c - a).abs();
@@ -156,13 +162,22 @@ impl Texels {
                 }
             });
         }
-        covers
+        Ok(covers)
     }
 
-    fn list_image(&mut self, image: usize, covers: &[Cover], world: &World, layout: &Layout, charts: &[u32]) {
+    fn list_image(
+        &mut self,
+        image: usize,
+        covers: &[Cover],
+        world: &World,
+        layout: &Layout,
+        charts: &[u32],
+        progress: &Progress,
+    ) -> Result<(), Cancelled> {
         let [width, height] = self.sizes[image];
         let mut index = vec![NONE; covers.len()];
         for block_y in (0..height).step_by(BLOCK as usize) {
+            progress.check()?;
             for block_x in (0..width).step_by(BLOCK as usize) {
                 for y in block_y..(block_y + BLOCK).min(height) {
                     for x in block_x..(block_x + BLOCK).min(width) {
@@ -178,6 +193,7 @@ impl Texels {
             }
         }
         self.index.push(index);
+        Ok(())
     }
 
     fn texel(&self, world: &World, cover: &Cover, pixel: [u16; 2], chart: u32) -> Texel {
@@ -206,8 +222,9 @@ impl Texels {
         Hit { triangle, distance: 0.0, barycentric: barycentric(&local, point), front: true }
     }
 
-    fn mark_quarters(&mut self, world: &World) {
+    fn mark_quarters(&mut self, world: &World, progress: &Progress) -> Result<(), Cancelled> {
         for triangle in 0..self.corners.len() as u32 {
+            progress.check()?;
             let mut marks = Vec::new();
             self.for_each_pixel(triangle, |image, x, y, local| {
                 let Some(texel) = self.at_pixel(image as u32, x as i32, y as i32) else { return };
@@ -218,6 +235,7 @@ impl Texels {
             });
             marks.into_iter().for_each(|(texel, bits)| self.list[texel as usize].quarters |= bits);
         }
+        Ok(())
     }
 
     /// Calls `visit` with image, column, row and the corners of the triangle relative to each texel in its box.

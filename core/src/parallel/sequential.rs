@@ -25,6 +25,16 @@ impl Workers {
         task()
     }
 
+    /// Runs a task that cannot be interrupted.
+    pub fn run_apart<T: Send + 'static>(
+        &self,
+        progress: &Progress,
+        task: impl FnOnce() -> T + Send + 'static,
+    ) -> Result<T, Cancelled> {
+        progress.check()?;
+        Ok(task())
+    }
+
     /// The results of `task` for `0..count`, in order, computed `chunk` at a time.
     pub fn map<T: Send>(
         &self,

@@ -2,12 +2,16 @@
 
 use core::ops::Range;
 use core::sync::atomic::{AtomicUsize, Ordering};
+use core::time::Duration;
 
 use alloc::vec::Vec;
 
 use rayon::prelude::*;
 
 use crate::progress::{Cancelled, Progress};
+
+/// How often a bake that waits looks whether it was cancelled.
+const WAIT: Duration = Duration::from_millis(2);
 
 /// The threads that work on a bake.
 pub struct Workers(rayon::ThreadPool);
@@ -31,6 +35,24 @@ impl Workers {
     /// Runs a task that brings parallel work of its own on these threads.
     pub fn run<T: Send>(&self, task: impl FnOnce() -> T + Send) -> T {
         self.0.install(task)
+    }
+
+    /// Runs a task that cannot be interrupted. Where the bake is cancelled meanwhile it is left to end by itself.
+    ///
+    /// # Panics
+    ///
+    /// Where the task does.
+    pub fn run_apart<T: Send + 'static>(
+        &self,
+        progress: &Progress,
+        task: impl FnOnce() -> T + Send + 'static,
+    ) -> Result<T, Cancelled> {
+        let apart = std::thread::spawn(task);
+        while !apart.is_finished() {
+            progress.check()?;
+            std::thread::sleep(WAIT);
+        }
+        Ok(apart.join().expect("the task ends well"))
     }
 
     /// The results of `task` for `0..count`, in order, computed `chunk` at a time.
