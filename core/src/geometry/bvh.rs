@@ -54,23 +54,23 @@ impl Bvh {
 }
 
 impl Occluders for Bvh {
-    fn nearest(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+    fn first(&self, ray: &Ray, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit> {
         let sheared = ShearedRay::new(ray);
-        let mut nearest: Option<Hit> = None;
+        let mut first: Option<(f32, Hit)> = None;
         let mut end = ray.end;
         self.tree.ray_traverse(Self::traversal(ray), &mut obvhs::ray::RayHit::none(), |_, leaf| {
             let (corners, index) = &self.leaves[leaf];
             let Some(hit) = sheared.hit(corners, *index, end) else { return f32::INFINITY };
-            let is_nearest = nearest.is_none_or(|known| is_before(&hit, &known));
-            if !is_nearest || !accept(&hit) {
+            let Some(placed) = place(&hit).map(|place| (place, hit)) else { return f32::INFINITY };
+            if first.is_some_and(|known| !is_before(&placed, &known)) {
                 return f32::INFINITY;
             }
-            nearest = Some(hit);
-            end = hit.distance;
-            // The tree must still visit what lies at the same distance.
-            hit.distance * (1.0 + 1e-6)
+            first = Some(placed);
+            end = placed.0.min(ray.end);
+            // The tree must still visit what lies at the same place.
+            end * (1.0 + 1e-6)
         });
-        nearest
+        first.map(|(_, hit)| hit)
     }
 
     fn any(&self, ray: &Ray, mut stop: impl FnMut(&Hit) -> bool) -> bool {
@@ -108,9 +108,10 @@ mod tests {
             let origin = Vec3::new(sequence.dimension(0, 0), sequence.dimension(0, 1), sequence.dimension(0, 2));
             let direction = cosine_direction(sequence.square(1), Vec3::Z);
             let ray = Ray { origin, direction, end: if index % 3 == 0 { 0.2 } else { f32::INFINITY } };
-            assert_eq!(tree.nearest(&ray, |_| true), all.nearest(&ray, |_| true));
+            assert_eq!(tree.nearest(&ray), all.nearest(&ray));
             let odd = |hit: &Hit| hit.triangle % 2 == 1;
-            assert_eq!(tree.nearest(&ray, odd), all.nearest(&ray, odd));
+            let fronts_first = |hit: &Hit| odd(hit).then(|| hit.distance + if hit.front { 0.0 } else { 0.1 });
+            assert_eq!(tree.first(&ray, fronts_first), all.first(&ray, fronts_first));
             assert_eq!(tree.any(&ray, odd), all.any(&ray, odd));
         }
     }
@@ -142,6 +143,6 @@ mod tests {
         let triangle = [Vec3::ZERO, Vec3::X, Vec3::Y];
         let tree = Bvh::new(&[triangle; 40]);
         let ray = Ray { origin: Vec3::new(0.2, 0.2, 1.0), direction: Vec3::NEG_Z, end: 2.0 };
-        assert_eq!(tree.nearest(&ray, |_| true).map(|hit| hit.triangle), Some(0));
+        assert_eq!(tree.nearest(&ray).map(|hit| hit.triangle), Some(0));
     }
 }

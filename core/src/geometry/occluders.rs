@@ -5,10 +5,16 @@ use glam::Vec3;
 use super::triangle::ShearedRay;
 use super::{Hit, Ray};
 
-/// A set of triangles. Of several hits at the same distance the lowest triangle index wins, whatever the tree.
+/// A set of triangles. Of several hits at the same place the lowest triangle index wins, whatever the tree.
 pub trait Occluders: Sync {
-    /// The nearest hit among those that `accept` does not let through.
-    fn nearest(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit>;
+    /// The hit that comes first among those to which `place` gives a place along the ray, which is at or beyond the
+    /// distance of the hit; usually it is that distance.
+    fn first(&self, ray: &Ray, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit>;
+
+    /// The nearest hit.
+    fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        self.first(ray, |hit| Some(hit.distance))
+    }
 
     /// Calls `stop` with hits in any order until it returns true, and tells whether it did.
     fn any(&self, ray: &Ray, stop: impl FnMut(&Hit) -> bool) -> bool;
@@ -26,8 +32,10 @@ impl<T: AsRef<[[Vec3; 3]]>> BruteForce<T> {
 }
 
 impl<T: AsRef<[[Vec3; 3]]> + Sync> Occluders for BruteForce<T> {
-    fn nearest(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        self.hits(ray).filter(accept).reduce(|nearest, hit| if is_before(&hit, &nearest) { hit } else { nearest })
+    fn first(&self, ray: &Ray, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit> {
+        let placed = self.hits(ray).filter_map(|hit| Some((place(&hit)?, hit)));
+        let first = placed.reduce(|first, other| if is_before(&other, &first) { other } else { first });
+        first.map(|(_, hit)| hit)
     }
 
     fn any(&self, ray: &Ray, mut stop: impl FnMut(&Hit) -> bool) -> bool {
@@ -35,8 +43,8 @@ impl<T: AsRef<[[Vec3; 3]]> + Sync> Occluders for BruteForce<T> {
     }
 }
 
-/// The order of hits along a ray.
+/// The order of placed hits along a ray.
 #[inline]
-pub(super) fn is_before(hit: &Hit, other: &Hit) -> bool {
-    hit.distance < other.distance || (hit.distance == other.distance && hit.triangle < other.triangle)
+pub(super) fn is_before(hit: &(f32, Hit), other: &(f32, Hit)) -> bool {
+    hit.0 < other.0 || (hit.0 == other.0 && hit.1.triangle < other.1.triangle)
 }

@@ -62,7 +62,7 @@ fn is_enclosed(view: &View, point: Vec3) -> bool {
 
 /// Whether the camera looks through the backs of one-sided walls at half of what it meets first.
 fn looks_in(view: &View, camera: &Camera) -> bool {
-    let first = rays(camera).filter_map(|ray| view.tree.nearest(&ray, |_| true));
+    let first = rays(camera).filter_map(|ray| view.tree.nearest(&ray));
     let (met, culled) = first.fold((0, 0), |(met, culled), hit| (met + 1, culled + u32::from(!view.shows_side(&hit))));
     2 * culled >= met
 }
@@ -82,7 +82,7 @@ fn from_inside(view: &View, low: Vec3, high: Vec3) -> Camera {
 
 /// How far things are on average; what has no visible side does not count.
 fn visible_depth(view: &View, camera: &Camera) -> f32 {
-    let hits = rays(camera).filter_map(|ray| view.tree.nearest(&ray, |_| true));
+    let hits = rays(camera).filter_map(|ray| view.tree.nearest(&ray));
     hits.filter(|hit| view.shows_side(hit)).map(|hit| hit.distance).sum()
 }
 

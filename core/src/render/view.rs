@@ -29,7 +29,8 @@ impl<'a> View<'a> {
     /// The nearest thing that is to be seen along a ray, behind another hit if there is one.
     pub fn nearest(&self, ray: &Ray, behind: Option<&Hit>) -> Option<Hit> {
         let is_next = |hit: &Hit| behind.is_none_or(|other| is_behind(hit, other));
-        self.tree.nearest(ray, |hit| is_next(hit) && self.shows_side(hit) && self.opacity(hit) > 0.0)
+        let is_seen = |hit: &Hit| is_next(hit) && self.shows_side(hit) && self.opacity(hit) > 0.0;
+        self.tree.first(ray, |hit| is_seen(hit).then_some(hit.distance))
     }
 
     /// Whether the side that a ray meets can be seen at all: one-sided surfaces are seen from their front only.

@@ -44,13 +44,11 @@ impl<'a, O: Occluders> Tracer<'a, O> {
     /// by `seed`. Where two one-sided surfaces lie back to back, the one that faces the ray is met.
     #[inline]
     pub fn nearest(&self, ray: &Ray, seed: u32) -> Option<Hit> {
-        let hit = self.occluders.nearest(ray, |hit| self.blocks(hit, seed))?;
-        if hit.front || self.world.sides[hit.triangle as usize].both {
-            return Some(hit);
-        }
-        let end = hit.distance + 4.0 * self.lift / ray.direction.length();
-        let facing = self.occluders.nearest(&Ray { end, ..*ray }, |other| other.front && self.blocks(other, seed));
-        Some(facing.unwrap_or(hit))
+        let slack = 4.0 * self.lift / ray.direction.length();
+        self.occluders.first(ray, |hit| {
+            let shows = hit.front || self.world.sides[hit.triangle as usize].both;
+            self.blocks(hit, seed).then_some(if shows { hit.distance } else { hit.distance + slack })
+        })
     }
 
     #[inline]
