@@ -1,0 +1,127 @@
+use bevy::asset::{AssetApp, AssetPlugin};
+use bevy::gltf::GltfMaterial;
+use bevy::mesh::MeshBuilder;
+
+use super::*;
+use crate::gltf::GltfMaterial3d;
+
+/// An app with the assets of a scene, no renderer, and transforms that are propagated.
+fn app() -> App {
+    let mut app = App::new();
+    app.add_plugins((MinimalPlugins, TransformPlugin, AssetPlugin::default()));
+    app.init_asset::<Mesh>().init_asset::<Image>().init_asset::<GltfMaterial>();
+    app
+}
+
+fn cube(app: &mut App) -> (Mesh3d, Handle<Mesh>) {
+    let mesh = app.world_mut().resource_mut::<Assets<Mesh>>().add(Cuboid::default().mesh().build());
+    (Mesh3d(mesh.clone()), mesh)
+}
+
+fn paint(app: &mut App, material: GltfMaterial) -> GltfMaterial3d {
+    GltfMaterial3d(app.world_mut().resource_mut::<Assets<GltfMaterial>>().add(material))
+}
+
+fn collected(app: &mut App) -> Collected {
+    app.update();
+    collect(app.world_mut())
+}
+
+fn names(collected: &Collected) -> Vec<&str> {
+    collected.scene.surfaces.iter().map(|surface| surface.name.as_str()).collect()
+}
+
+/// Below a `Baked`, in the order of the hierarchy, without what is left out on request.
+#[test]
+fn what_is_baked_and_what_is_not() {
+    let mut app = app();
+    let (mesh, _) = cube(&mut app);
+    let material = paint(&mut app, GltfMaterial::default());
+    let object = |name: &'static str| (Name::new(name), mesh.clone(), material.clone(), Transform::default());
+    app.world_mut().spawn((object("stranger"), Visibility::Visible));
+    app.world_mut().spawn((object("root"), Visibility::Visible, Baked::default())).with_children(|root| {
+        root.spawn((object("first"), Visibility::Inherited)).with_children(|first| {
+            first.spawn((object("dense"), Visibility::Inherited, Baked { density: 4.0 }));
+        });
+        root.spawn((object("dynamic"), Visibility::Inherited, NotBaked)).with_children(|dynamic| {
+            dynamic.spawn((object("below dynamic"), Visibility::Inherited));
+        });
+        root.spawn((object("hidden"), Visibility::Hidden)).with_children(|hidden| {
+            hidden.spawn((object("below hidden"), Visibility::Inherited));
+            hidden.spawn((object("shown"), Visibility::Visible));
+        });
+        root.spawn((object("elsewhere"), Visibility::Inherited, RenderLayers::layer(3)));
+        root.spawn((object("last"), Visibility::Inherited, NotShadowCaster));
+    });
+    let collected = collected(&mut app);
+    assert_eq!(names(&collected), ["root", "first", "dense", "shown", "last"]);
+    let densities = collected.scene.surfaces.iter().map(|surface| surface.receiver);
+    let expected = [1.0, 1.0, 4.0, 1.0, 1.0].map(|density| Receiver::Lightmap { density });
+    assert_eq!(densities.collect::<Vec<_>>(), expected);
+    assert_eq!(collected.scene.surfaces.iter().map(|s| s.casts).collect::<Vec<_>>(), [true, true, true, true, false]);
+    // All share one mesh and one material.
+    assert_eq!((collected.scene.meshes.len(), collected.scene.materials.len()), (1, 1));
+    assert_eq!((collected.surfaces.len(), collected.mesh_handles.len()), (5, 1));
+    assert_eq!(collected.warnings, Vec::<String>::new());
+}
+
+/// Nothing is lost without a word.
+#[test]
+fn what_cannot_be_baked_is_named() {
+    let mut app = app();
+    let (mesh, _) = cube(&mut app);
+    let material = paint(&mut app, GltfMaterial::default());
+    let unlit = paint(&mut app, GltfMaterial { unlit: true, ..default() });
+    app.world_mut().spawn((Baked::default(), Transform::default())).with_children(|root| {
+        root.spawn((Name::new("hero"), mesh.clone(), material.clone(), SkinnedMesh::default()));
+        root.spawn((Name::new("late"), Mesh3d(Handle::default()), material.clone()));
+        root.spawn((Name::new("plain"), mesh.clone()));
+        root.spawn((Name::new("sign"), mesh.clone(), unlit));
+        root.spawn((Name::new("lost"), mesh.clone(), material, Transform::from_xyz(f32::NAN, 0.0, 0.0)));
+    });
+    let collected = collected(&mut app);
+    assert_eq!(names(&collected), ["plain", "sign"]);
+    assert!(collected.scene.surfaces.iter().all(|surface| surface.receiver == Receiver::Nothing && surface.casts));
+    for (name, reason) in
+        [("hero", "skinned"), ("late", "not loaded"), ("plain", "StandardMaterial"), ("lost", "finite")]
+    {
+        let found = collected.warnings.iter().any(|warning| warning.contains(name) && warning.contains(reason));
+        assert!(found, "{name}: {:?}", collected.warnings);
+    }
+}
+
+/// A texture that is looked up by the second coordinates keeps them from being replaced.
+#[test]
+fn coordinates_in_use_are_marked() {
+    let mut app = app();
+    let (mesh, _) = cube(&mut app);
+    let occlusion_texture = Some(Handle::default());
+    let material =
+        paint(&mut app, GltfMaterial { occlusion_texture, occlusion_channel: bevy::mesh::UvChannel::Uv1, ..default() });
+    app.world_mut().spawn((Baked::default(), mesh, material, Transform::default()));
+    assert!(collected(&mut app).scene.meshes[0].uv_1_in_use);
+}
+
+#[test]
+fn lights_have_their_angles_and_warn_of_their_range() {
+    let mut app = app();
+    let (mesh, _) = cube(&mut app);
+    let material = paint(&mut app, GltfMaterial::default());
+    app.world_mut().spawn((Baked::default(), Transform::default())).with_children(|root| {
+        root.spawn((mesh, material, Transform::from_scale(Vec3::splat(60.0))));
+        root.spawn((Name::new("sun"), DirectionalLight::default()));
+        root.spawn((Name::new("disk"), DirectionalLight::default(), SunDisk { angular_size: 0.1, intensity: 1.0 }));
+        root.spawn((Name::new("soft"), DirectionalLight::default(), AngularDiameter(0.2)));
+        root.spawn((Name::new("short"), PointLight { intensity: 1e5, range: 20.0, ..default() }));
+        root.spawn((Name::new("long"), PointLight { intensity: 1e5, range: 500.0, ..default() }));
+        root.spawn((Name::new("static"), PointLight::default(), NotBaked));
+    });
+    let collected = collected(&mut app);
+    let angles = collected.scene.lights.iter().filter_map(|light| match light.source {
+        LightSource::Directional(sun) => Some(sun.angular_diameter),
+        _ => None,
+    });
+    assert_eq!(angles.collect::<Vec<_>>(), [SUN_DIAMETER, 0.1, 0.2]);
+    assert_eq!((collected.scene.lights.len(), collected.lights.len()), (5, 5));
+    assert!(collected.warnings.len() == 1 && collected.warnings[0].starts_with("\"short\" is a light whose range"));
+}

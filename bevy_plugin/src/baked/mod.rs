@@ -1,0 +1,4 @@
+//! A saved bake: its files.
+
+pub mod ktx2;
+pub mod manifest;

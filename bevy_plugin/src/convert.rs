@@ -1,0 +1,441 @@
+//! Bevy's meshes, images, materials, lights and units, and those of the core. The only file that knows both.
+
+use std::f32::consts::PI;
+
+use bevy::gltf::GltfMaterial;
+use bevy::image::{ImageAddressMode, ImageSampler};
+use bevy::light::{DirectionalLight, PointLight, RectLight, SpotLight};
+use bevy::material::AlphaMode;
+use bevy::math::Affine2;
+use bevy::mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, UvChannel, VertexAttributeValues};
+use bevy::prelude::*;
+use radiosity::light::{self, LightSource};
+use radiosity::material::{self, Texels, Texture, TextureRef, UvSet, Wrap};
+use wgpu_types::TextureFormat;
+
+/// A mesh as the core has it.
+///
+/// # Errors
+///
+/// Says why the mesh cannot take part in a bake, as the end of a sentence about it.
+pub fn mesh(name: &str, mesh: &Mesh) -> Result<radiosity::geometry::Mesh, &'static str> {
+    let positions = match mesh.try_attribute_option(Mesh::ATTRIBUTE_POSITION) {
+        Ok(Some(VertexAttributeValues::Float32x3(positions))) => positions.iter().map(|&p| Vec3::from(p)).collect(),
+        Ok(_) => return Err("has no positions of three floats"),
+        Err(_) => return Err("lives on the GPU only; load it with `RenderAssetUsages::MAIN_WORLD`"),
+    };
+    let positions: Vec<Vec3> = positions;
+    let triangles = triangles(mesh, positions.len())?;
+    Ok(radiosity::geometry::Mesh {
+        name: name.to_owned(),
+        normals: vec3s(mesh, Mesh::ATTRIBUTE_NORMAL),
+        uv_0: vec2s(mesh, Mesh::ATTRIBUTE_UV_0),
+        uv_1: vec2s(mesh, Mesh::ATTRIBUTE_UV_1),
+        colors: vec4s(mesh, Mesh::ATTRIBUTE_COLOR),
+        positions,
+        triangles,
+        uv_1_in_use: false,
+    })
+}
+
+/// The triangles of a list or a strip. Those with an index that no vertex has are left out.
+fn triangles(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, &'static str> {
+    let indices: Vec<u32> = match mesh.try_indices_option() {
+        Ok(Some(Indices::U16(indices))) => indices.iter().map(|&index| u32::from(index)).collect(),
+        Ok(Some(Indices::U32(indices))) => indices.clone(),
+        _ => (0..vertices as u32).collect(),
+    };
+    let triangles: Vec<[u32; 3]> = match mesh.primitive_topology() {
+        PrimitiveTopology::TriangleList => indices.chunks_exact(3).map(|i| [i[0], i[1], i[2]]).collect(),
+        PrimitiveTopology::TriangleStrip => {
+            let turned = |(number, i): (usize, &[u32])| match number % 2 {
+                0 => [i[0], i[1], i[2]],
+                _ => [i[0], i[2], i[1]],
+            };
+            indices.windows(3).enumerate().map(turned).collect()
+        }
+        _ => return Err("consists of points or lines"),
+    };
+    Ok(triangles.into_iter().filter(|triangle| triangle.iter().all(|&index| (index as usize) < vertices)).collect())
+}
+
+fn vec2s(mesh: &Mesh, attribute: MeshVertexAttribute) -> Vec<Vec2> {
+    match mesh.try_attribute_option(attribute) {
+        Ok(Some(VertexAttributeValues::Float32x2(list))) => list.iter().map(|&v| v.into()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn vec3s(mesh: &Mesh, attribute: MeshVertexAttribute) -> Vec<Vec3> {
+    match mesh.try_attribute_option(attribute) {
+        Ok(Some(VertexAttributeValues::Float32x3(list))) => list.iter().map(|&v| v.into()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn vec4s(mesh: &Mesh, attribute: MeshVertexAttribute) -> Vec<Vec4> {
+    match mesh.try_attribute_option(attribute) {
+        Ok(Some(VertexAttributeValues::Float32x4(list))) => list.iter().map(|&v| v.into()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// A picture as the core has it: 8-bit formats as they are, others as floats.
+///
+/// # Errors
+///
+/// Says why the picture cannot be read and what to do, as the end of a sentence about it.
+pub fn texture(name: &str, image: &Image) -> Result<Texture, String> {
+    let size = image.texture_descriptor.size;
+    let count = size.width as usize * size.height as usize;
+    let Some(data) = image.data.as_deref() else {
+        return Err("lives on the GPU only; load it with `RenderAssetUsages::MAIN_WORLD`".into());
+    };
+    if count == 0 {
+        return Err("is empty; replace the file".into());
+    }
+    let format = image.texture_descriptor.format;
+    let eight_bits = || -> Vec<[u8; 4]> { data.as_chunks().0.iter().take(count).copied().collect() };
+    let swapped = || -> Vec<[u8; 4]> { eight_bits().into_iter().map(|[b, g, r, a]| [r, g, b, a]).collect() };
+    let texels = match format {
+        TextureFormat::Rgba8UnormSrgb => Texels::Srgb8(eight_bits()),
+        TextureFormat::Rgba8Unorm => Texels::Linear8(eight_bits()),
+        TextureFormat::Bgra8UnormSrgb => Texels::Srgb8(swapped()),
+        TextureFormat::Bgra8Unorm => Texels::Linear8(swapped()),
+        _ => Texels::Linear32(floats(image).ok_or_else(|| {
+            format!("has the format {format:?}, which cannot be read on the CPU; convert it to PNG or JPEG")
+        })?),
+    };
+    let complete = match &texels {
+        Texels::Srgb8(list) | Texels::Linear8(list) => list.len() == count,
+        Texels::Linear32(list) => list.len() == count,
+    };
+    if !complete {
+        return Err("ends too early; replace the file".into());
+    }
+    let (wrap_u, wrap_v) = wrap(&image.sampler);
+    Ok(Texture { name: name.to_owned(), width: size.width, height: size.height, texels, wrap_u, wrap_v })
+}
+
+/// Linear texels of any format that Bevy can read.
+fn floats(image: &Image) -> Option<Vec<[f32; 4]>> {
+    let texels = (0..image.height()).flat_map(|y| (0..image.width()).map(move |x| (x, y)));
+    texels.map(|(x, y)| Some(image.get_color_at(x, y).ok()?.to_linear().to_f32_array())).collect()
+}
+
+fn wrap(sampler: &ImageSampler) -> (Wrap, Wrap) {
+    let wrap = |mode: &ImageAddressMode| match mode {
+        ImageAddressMode::Repeat => Wrap::Repeat,
+        ImageAddressMode::MirrorRepeat => Wrap::Mirror,
+        ImageAddressMode::ClampToEdge | ImageAddressMode::ClampToBorder => Wrap::Clamp,
+    };
+    match sampler {
+        // The default of `ImagePlugin` clamps.
+        ImageSampler::Default => (Wrap::Clamp, Wrap::Clamp),
+        ImageSampler::Descriptor(descriptor) => (wrap(&descriptor.address_mode_u), wrap(&descriptor.address_mode_v)),
+    }
+}
+
+/// What a bake needs of a material, whichever of Bevy's material types it comes from.
+#[derive(Clone, Debug)]
+pub struct MaterialInputs {
+    /// Linear or not, with alpha.
+    pub base_color: Color,
+    /// Multiplies the base color.
+    pub base_color_texture: Option<(Handle<Image>, UvChannel)>,
+    /// In `[0, 1]`.
+    pub metallic: f32,
+    /// Its blue channel multiplies `metallic`.
+    pub metallic_texture: Option<(Handle<Image>, UvChannel)>,
+    /// In cd/m2; alpha has no meaning.
+    pub emissive: LinearRgba,
+    /// Multiplies `emissive`.
+    pub emissive_texture: Option<(Handle<Image>, UvChannel)>,
+    /// What alpha means.
+    pub alpha_mode: AlphaMode,
+    /// Applied to the coordinates of all textures.
+    pub uv_transform: Affine2,
+    /// Whether back faces reflect and emit.
+    pub double_sided: bool,
+    /// Whether light has no say in how the material looks.
+    pub unlit: bool,
+    /// Share of the light that passes as through glass, in `[0, 1]`, which a bake does not know.
+    pub transmission: f32,
+    /// Whether any texture is looked up by the second set of coordinates.
+    pub reads_uv_1: bool,
+}
+
+/// Reads the fields that `GltfMaterial` and `StandardMaterial` have in common.
+macro_rules! material_inputs {
+    ($material:expr) => {{
+        let material = $material;
+        let used = |texture: &Option<Handle<Image>>, channel: &UvChannel| {
+            texture.clone().map(|texture| (texture, channel.clone()))
+        };
+        let base_color_texture = used(&material.base_color_texture, &material.base_color_channel);
+        let metallic_texture = used(&material.metallic_roughness_texture, &material.metallic_roughness_channel);
+        let emissive_texture = used(&material.emissive_texture, &material.emissive_channel);
+        let normal_map = used(&material.normal_map_texture, &material.normal_map_channel);
+        let occlusion = used(&material.occlusion_texture, &material.occlusion_channel);
+        let all = [&base_color_texture, &metallic_texture, &emissive_texture, &normal_map, &occlusion];
+        let reads_uv_1 = all.into_iter().flatten().any(|(_, channel)| matches!(channel, UvChannel::Uv1));
+        MaterialInputs {
+            base_color: material.base_color,
+            base_color_texture,
+            metallic: material.metallic,
+            metallic_texture,
+            emissive: material.emissive,
+            emissive_texture,
+            alpha_mode: material.alpha_mode,
+            uv_transform: material.uv_transform,
+            double_sided: material.double_sided,
+            unlit: material.unlit,
+            transmission: material.specular_transmission,
+            reads_uv_1,
+        }
+    }};
+}
+
+impl From<&GltfMaterial> for MaterialInputs {
+    fn from(material: &GltfMaterial) -> Self {
+        material_inputs!(material)
+    }
+}
+
+#[cfg(feature = "render")]
+impl From<&bevy::pbr::StandardMaterial> for MaterialInputs {
+    fn from(material: &bevy::pbr::StandardMaterial) -> Self {
+        material_inputs!(material)
+    }
+}
+
+/// A material as the core has it; `texture_index` finds the texture of the scene for a picture, if it can be read.
+pub fn material(
+    name: &str,
+    inputs: &MaterialInputs,
+    mut texture_index: impl FnMut(&Handle<Image>) -> Option<usize>,
+) -> material::Material {
+    let transform = inputs.uv_transform;
+    let mut reference = |texture: &Option<(Handle<Image>, UvChannel)>| {
+        let (image, channel) = texture.as_ref()?;
+        Some(TextureRef { texture: texture_index(image)?, uv_set: uv_set(channel), transform })
+    };
+    let base_color = Vec4::from_array(inputs.base_color.to_linear().to_f32_array()).clamp(Vec4::ZERO, Vec4::ONE);
+    let (alpha, base_color) = match inputs.alpha_mode {
+        AlphaMode::Opaque => (material::AlphaMode::Opaque, base_color),
+        AlphaMode::Mask(cutoff) => (material::AlphaMode::Mask(cutoff), base_color),
+        // What is added or multiplied to the picture does not hold light back as a surface does.
+        AlphaMode::Add | AlphaMode::Multiply => (material::AlphaMode::Blend, base_color.truncate().extend(0.0)),
+        AlphaMode::Blend | AlphaMode::Premultiplied | AlphaMode::AlphaToCoverage => {
+            (material::AlphaMode::Blend, base_color)
+        }
+    };
+    material::Material {
+        name: name.to_owned(),
+        base_color,
+        base_color_texture: reference(&inputs.base_color_texture),
+        metallic: inputs.metallic.clamp(0.0, 1.0),
+        metallic_texture: reference(&inputs.metallic_texture),
+        emissive: inputs.emissive.to_vec3().max(Vec3::ZERO),
+        emissive_texture: reference(&inputs.emissive_texture),
+        alpha,
+        double_sided: inputs.double_sided,
+    }
+}
+
+fn uv_set(channel: &UvChannel) -> UvSet {
+    match channel {
+        UvChannel::Uv0 => UvSet::Uv0,
+        UvChannel::Uv1 => UvSet::Uv1,
+    }
+}
+
+/// A point light; its lumens leave evenly in all directions.
+pub fn point_light(light: &PointLight, transform: &GlobalTransform) -> LightSource {
+    LightSource::Point(light::PointLight {
+        position: transform.translation(),
+        intensity: rgb(light.color) * candela(light.intensity),
+        range: light.range,
+        radius: light.radius,
+    })
+}
+
+/// A spot light. As in Bevy its lumens are those of a point light of the same brightness, not of the cone.
+pub fn spot_light(light: &SpotLight, transform: &GlobalTransform) -> LightSource {
+    LightSource::Spot(light::SpotLight {
+        point: light::PointLight {
+            position: transform.translation(),
+            intensity: rgb(light.color) * candela(light.intensity),
+            range: light.range,
+            radius: light.radius,
+        },
+        direction: transform.forward().into(),
+        inner_angle: light.inner_angle,
+        outer_angle: light.outer_angle,
+    })
+}
+
+/// A directional light that is seen under an angle in radians.
+pub fn directional_light(light: &DirectionalLight, transform: &GlobalTransform, angular_diameter: f32) -> LightSource {
+    LightSource::Directional(light::DirectionalLight {
+        direction: transform.forward().into(),
+        illuminance: rgb(light.color) * light.illuminance,
+        angular_diameter,
+    })
+}
+
+/// A rectangular light, which shines towards its -Z; its lumens are spread over its area as it is scaled.
+pub fn rect_light(light: &RectLight, transform: &GlobalTransform) -> LightSource {
+    let [x, y, _] = transform.affine().matrix3.to_cols_array_2d().map(Vec3::from);
+    let (width, height) = (light.width * x.length(), light.height * y.length());
+    let half_width = Vec3::from(transform.right()) * width * 0.5;
+    let half_height = Vec3::from(transform.up()) * height * 0.5;
+    LightSource::Rect(light::RectLight {
+        center: transform.translation(),
+        // Right x up points back, and the light leaves forward.
+        half_width: half_height,
+        half_height: half_width,
+        radiance: rgb(light.color) * light.intensity / (width * height * PI),
+        range: light.range,
+    })
+}
+
+fn candela(lumens: f32) -> f32 {
+    lumens / (4.0 * PI)
+}
+
+fn rgb(color: Color) -> Vec3 {
+    color.to_linear().to_vec3()
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy::asset::RenderAssetUsages;
+    use wgpu_types::{Extent3d, TextureDimension};
+
+    use super::*;
+
+    fn bevy_mesh(topology: PrimitiveTopology, vertices: usize, usages: RenderAssetUsages) -> Mesh {
+        let positions: Vec<[f32; 3]> = (0..vertices).map(|i| [i as f32, 0.0, 0.0]).collect();
+        Mesh::new(topology, usages).with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
+    }
+
+    fn placed(transform: Transform) -> GlobalTransform {
+        transform.into()
+    }
+
+    /// Every second triangle of a strip is turned, so that all face the same way.
+    #[test]
+    fn lists_and_strips_with_and_without_indices() {
+        let list = bevy_mesh(PrimitiveTopology::TriangleList, 6, default());
+        assert_eq!(mesh("", &list).unwrap().triangles, [[0, 1, 2], [3, 4, 5]]);
+        let strip = bevy_mesh(PrimitiveTopology::TriangleStrip, 5, default());
+        assert_eq!(mesh("", &strip).unwrap().triangles, [[0, 1, 2], [1, 3, 2], [2, 3, 4]]);
+        for indices in [Indices::U16(vec![2, 1, 0]), Indices::U32(vec![2, 1, 0])] {
+            let indexed = list.clone().with_inserted_indices(indices);
+            assert_eq!(mesh("", &indexed).unwrap().triangles, [[2, 1, 0]]);
+        }
+    }
+
+    /// What Bevy would panic on is said instead.
+    #[test]
+    fn unusable_meshes_say_why() {
+        let lines = bevy_mesh(PrimitiveTopology::LineList, 4, default());
+        assert!(mesh("", &lines).unwrap_err().contains("lines"));
+        let mut on_gpu = bevy_mesh(PrimitiveTopology::TriangleList, 3, RenderAssetUsages::RENDER_WORLD);
+        on_gpu.take_gpu_data().unwrap();
+        assert!(mesh("", &on_gpu).unwrap_err().contains("MAIN_WORLD"));
+        let wild = bevy_mesh(PrimitiveTopology::TriangleList, 3, default())
+            .with_inserted_indices(Indices::U32(vec![0, 1, 9, 0, 1, 2]));
+        assert_eq!(mesh("", &wild).unwrap().triangles, [[0, 1, 2]]);
+    }
+
+    fn image(format: TextureFormat, texel: &[u8]) -> Image {
+        let size = Extent3d { width: 2, height: 1, depth_or_array_layers: 1 };
+        Image::new(size, TextureDimension::D2, texel.repeat(2), format, default())
+    }
+
+    #[test]
+    fn eight_bits_stay_as_they_are() {
+        let Texels::Srgb8(texels) = texture("", &image(TextureFormat::Rgba8UnormSrgb, &[1, 2, 3, 4])).unwrap().texels
+        else {
+            panic!("sRGB became linear")
+        };
+        assert_eq!(texels, [[1, 2, 3, 4]; 2]);
+        let Texels::Linear8(texels) = texture("", &image(TextureFormat::Bgra8Unorm, &[1, 2, 3, 4])).unwrap().texels
+        else {
+            panic!("linear became sRGB")
+        };
+        assert_eq!(texels, [[3, 2, 1, 4]; 2]);
+    }
+
+    #[test]
+    fn other_formats_become_floats_or_say_why_not() {
+        let bytes: Vec<u8> = [7.5_f32, 0.5, 0.25, 1.0].iter().flat_map(|number| number.to_le_bytes()).collect();
+        let Texels::Linear32(texels) = texture("", &image(TextureFormat::Rgba32Float, &bytes)).unwrap().texels else {
+            panic!("floats became bytes")
+        };
+        assert_eq!(texels, [[7.5, 0.5, 0.25, 1.0]; 2]);
+        let error = texture("", &image(TextureFormat::Rgb9e5Ufloat, &[0; 4])).unwrap_err();
+        assert!(error.contains("Rgb9e5Ufloat") && error.contains("PNG"), "{error}");
+        let mut gone = image(TextureFormat::Rgba8Unorm, &[0; 4]);
+        gone.data = None;
+        assert!(texture("", &gone).is_err());
+    }
+
+    /// 4 pi lumens are one candela, for points and, as in Bevy, for spots; colors are linear.
+    #[test]
+    fn lumens_become_candela() {
+        let color = Color::linear_rgb(1.0, 0.5, 0.25);
+        let at = placed(Transform::from_xyz(1.0, 2.0, 3.0).looking_to(Vec3::X, Vec3::Y).with_scale(Vec3::splat(2.0)));
+        let point = PointLight { color, intensity: 4.0 * PI, range: 7.0, radius: 0.1, ..default() };
+        let LightSource::Point(point) = point_light(&point, &at) else { panic!("not a point") };
+        assert!(point.intensity.abs_diff_eq(Vec3::new(1.0, 0.5, 0.25), 1e-6));
+        assert_eq!((point.position, point.range, point.radius), (Vec3::new(1.0, 2.0, 3.0), 7.0, 0.1));
+        let spot = SpotLight { color, intensity: 4.0 * PI, inner_angle: 0.2, outer_angle: 0.4, ..default() };
+        let LightSource::Spot(spot) = spot_light(&spot, &at) else { panic!("not a spot") };
+        assert!(spot.point.intensity.abs_diff_eq(point.intensity, 1e-6) && spot.direction.abs_diff_eq(Vec3::X, 1e-6));
+        assert_eq!((spot.inner_angle, spot.outer_angle), (0.2, 0.4));
+    }
+
+    /// A rectangle of area A and radiance L sends out pi A L lumens, towards -Z, whatever its scale.
+    #[test]
+    fn rectangles_send_out_their_lumens() {
+        let light = RectLight { color: Color::WHITE, intensity: 600.0, width: 2.0, height: 1.0, range: 9.0 };
+        let at = placed(
+            Transform::from_xyz(0.0, 3.0, 0.0).looking_to(Vec3::NEG_Y, Vec3::X).with_scale(Vec3::new(1.5, 2.0, 1.0)),
+        );
+        let LightSource::Rect(rect) = rect_light(&light, &at) else { panic!("not a rectangle") };
+        let normal = rect.half_width.cross(rect.half_height);
+        assert!(normal.normalize().abs_diff_eq(Vec3::NEG_Y, 1e-6));
+        assert!((4.0 * normal.length() - 6.0).abs() < 1e-5, "3 m x 2 m");
+        assert!((PI * 6.0 * rect.radiance.x - 600.0).abs() < 1e-2);
+    }
+
+    #[test]
+    fn materials_keep_what_a_bake_needs() {
+        let texture = Handle::<Image>::default();
+        let gltf = GltfMaterial {
+            base_color: Color::linear_rgba(0.2, 0.4, 0.6, 0.8),
+            metallic: 0.3,
+            emissive: LinearRgba::new(2.0, 3.0, 4.0, 100.0),
+            emissive_texture: Some(texture.clone()),
+            emissive_channel: UvChannel::Uv1,
+            alpha_mode: AlphaMode::Mask(0.4),
+            double_sided: true,
+            uv_transform: Affine2::from_scale(Vec2::splat(3.0)),
+            ..default()
+        };
+        let inputs = MaterialInputs::from(&gltf);
+        assert!(inputs.reads_uv_1 && !inputs.unlit);
+        let core = material("paint", &inputs, |_| Some(5));
+        assert!(core.base_color.abs_diff_eq(Vec4::new(0.2, 0.4, 0.6, 0.8), 1e-6));
+        assert_eq!((core.metallic, core.emissive, core.double_sided), (0.3, Vec3::new(2.0, 3.0, 4.0), true));
+        assert_eq!((core.alpha, core.base_color_texture.is_none()), (material::AlphaMode::Mask(0.4), true));
+        let emissive = core.emissive_texture.unwrap();
+        assert_eq!((emissive.texture, emissive.uv_set), (5, UvSet::Uv1));
+        assert_eq!(emissive.transform.transform_point2(Vec2::ONE), Vec2::splat(3.0));
+        // A picture that cannot be read leaves the factor.
+        assert!(super::material("paint", &inputs, |_| None).emissive_texture.is_none());
+    }
+}
