@@ -1,0 +1,189 @@
+//! What can be said on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Parser, ValueEnum};
+use radiosity::bake::{BakeSettings, Quality};
+use radiosity::lightmap::{LayoutSettings, Resolution, UvMode};
+use sysinfo::System;
+
+/// Bakes the lightmaps of a glTF scene into a folder that Bevy loads.
+#[derive(Parser, Clone, Debug)]
+#[command(name = "bake", version)]
+pub(super) struct Args {
+    /// .glb or .gltf file; without one a Cornell box is baked
+    pub scene: Option<PathBuf>,
+
+    /// Folder for scene.glb, the lightmaps, manifest.json, report.json and preview.png
+    #[arg(long, value_name = "DIR", default_value = "baked")]
+    pub out: PathBuf,
+
+    /// Density of the lightmaps; by default it is chosen by the quality
+    #[arg(long, value_name = "N", value_parser = positive, conflicts_with = "resolution")]
+    pub texels_per_meter: Option<f32>,
+
+    /// Side of one single image in texels, a multiple of 4
+    #[arg(long, value_name = "N", value_parser = image_side)]
+    pub resolution: Option<u32>,
+
+    /// What becomes of the second set of coordinates of the meshes
+    #[arg(long, value_enum, default_value_t)]
+    pub uv: UvArg,
+
+    /// How many rays and, without a density, how many texels: about 2^18, 2^20 or 2^22
+    #[arg(long, value_enum, default_value_t)]
+    pub quality: QualityArg,
+
+    /// Worker threads, 0 for one on each core; the result does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
+
+    /// What the bake may use, as 2G or 512M; by default three quarters of what the machine has
+    #[arg(long, value_name = "BYTES", value_parser = bytes)]
+    pub memory: Option<u64>,
+
+    /// Seed of all random decisions
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+
+    /// Factor on what emissive materials emit, in cd/m2 for each unit in the file
+    #[arg(long, value_name = "X", value_parser = not_negative, default_value_t = 1.0)]
+    pub emissive_scale: f32,
+
+    /// Exposure of preview.png; by default it is chosen by the lightmaps
+    #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = finite)]
+    pub ev100: Option<f32>,
+}
+
+/// What becomes of the second set of coordinates of the meshes.
+#[derive(ValueEnum, Clone, Copy, Debug, Default)]
+pub(super) enum UvArg {
+    /// Usable ones are kept, the rest is unwrapped
+    #[default]
+    Auto,
+    /// A mesh without usable ones is an error
+    Keep,
+    /// All meshes are unwrapped anew
+    Unwrap,
+}
+
+/// How much work is spent.
+#[derive(ValueEnum, Clone, Copy, Debug, Default)]
+pub(super) enum QualityArg {
+    /// To see where the light goes
+    Draft,
+    /// For a game
+    #[default]
+    Medium,
+    /// For the last bake before shipping
+    High,
+}
+
+impl Args {
+    /// How the bake is to be made.
+    pub fn settings(&self) -> BakeSettings {
+        let (texels, box_density) = match self.quality {
+            QualityArg::Draft => (1 << 18, 256.0),
+            QualityArg::Medium => (1 << 20, 512.0),
+            QualityArg::High => (1 << 22, 1024.0),
+        };
+        let resolution = match (self.texels_per_meter, self.resolution) {
+            (Some(density), _) => Resolution::TexelsPerMeter(density),
+            (None, Some(side)) => Resolution::SingleImage(side),
+            // Half a meter wide, it would get 35 texels a wall from the limit of 64 per meter.
+            (None, None) if self.scene.is_none() => Resolution::TexelsPerMeter(box_density),
+            (None, None) => Resolution::Texels(texels),
+        };
+        let uv = match self.uv {
+            UvArg::Auto => UvMode::Auto,
+            UvArg::Keep => UvMode::Keep,
+            UvArg::Unwrap => UvMode::Unwrap,
+        };
+        let quality = match self.quality {
+            QualityArg::Draft => Quality::Draft,
+            QualityArg::Medium => Quality::Medium,
+            QualityArg::High => Quality::High,
+        };
+        BakeSettings {
+            layout: LayoutSettings { resolution, uv, ..Default::default() },
+            quality,
+            threads: self.threads,
+            memory_bytes: self.memory.unwrap_or_else(most_of_the_machine),
+            seed: self.seed,
+        }
+    }
+}
+
+/// Three quarters of the memory that this process may have, in bytes.
+fn most_of_the_machine() -> u64 {
+    let mut system = System::new();
+    system.refresh_memory();
+    let limit = system.cgroup_limits().map_or(u64::MAX, |limits| limits.total_memory);
+    system.total_memory().min(limit) / 4 * 3
+}
+
+fn positive(text: &str) -> Result<f32, String> {
+    finite(text).and_then(|number| if number > 0.0 { Ok(number) } else { Err("it must be above 0".into()) })
+}
+
+fn not_negative(text: &str) -> Result<f32, String> {
+    finite(text).and_then(|number| if number >= 0.0 { Ok(number) } else { Err("it must not be below 0".into()) })
+}
+
+fn finite(text: &str) -> Result<f32, String> {
+    text.parse().ok().filter(|number: &f32| number.is_finite()).ok_or_else(|| "it must be a number".into())
+}
+
+fn image_side(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(side @ 4..=4096) if side % 4 == 0 => Ok(side),
+        _ => Err("it must be a multiple of 4 from 4 to 4096".into()),
+    }
+}
+
+fn bytes(text: &str) -> Result<u64, String> {
+    let error = || "it must be a number of bytes such as 2G or 512M".to_owned();
+    let text = text.trim_end_matches(['B', 'b']).trim_end_matches('i');
+    let digits = text.trim_end_matches(|letter: char| letter.is_ascii_alphabetic());
+    let shift = match &text[digits.len()..] {
+        "" => 0,
+        "K" | "k" => 10,
+        "M" | "m" => 20,
+        "G" | "g" => 30,
+        "T" | "t" => 40,
+        _ => return Err(error()),
+    };
+    let number: f64 = digits.parse().map_err(|_| error())?;
+    let bytes = number * (1_u64 << shift) as f64;
+    if bytes >= 1.0 && bytes.is_finite() { Ok(bytes as u64) } else { Err(error()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_has_units() {
+        assert_eq!(bytes("2G"), Ok(2 << 30));
+        assert_eq!(bytes("512M"), Ok(512 << 20));
+        assert_eq!(bytes("1.5GiB"), Ok(3 << 29));
+        assert_eq!(bytes("4096"), Ok(4096));
+        for wrong in ["", "G", "2X", "-1G", "0"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn density_and_quality_choose_the_resolution() {
+        let resolution = |args: &[&str]| {
+            Args::try_parse_from([&["bake"], args].concat()).map(|args| args.settings().layout.resolution)
+        };
+        assert_eq!(resolution(&["a.glb"]).unwrap(), Resolution::Texels(1 << 20));
+        assert_eq!(resolution(&["a.glb", "--quality", "draft"]).unwrap(), Resolution::Texels(1 << 18));
+        assert_eq!(resolution(&[]).unwrap(), Resolution::TexelsPerMeter(512.0));
+        assert_eq!(resolution(&["--texels-per-meter", "8"]).unwrap(), Resolution::TexelsPerMeter(8.0));
+        assert_eq!(resolution(&["--resolution", "512"]).unwrap(), Resolution::SingleImage(512));
+        assert!(resolution(&["--resolution", "510"]).is_err());
+        assert!(resolution(&["--resolution", "512", "--texels-per-meter", "8"]).is_err());
+    }
+}

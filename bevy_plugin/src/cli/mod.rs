@@ -1,0 +1,139 @@
+//! The command line: from a glTF file to a folder that Bevy loads.
+
+mod accessor;
+mod args;
+mod builtin;
+mod document;
+mod error;
+mod exr;
+mod load;
+mod loadable;
+mod names;
+mod output;
+mod preview;
+mod progress;
+mod prune;
+mod report_file;
+mod scene_file;
+mod write;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+use std::sync::Once;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use clap::Parser;
+use radiosity::bake::{Bake, BakeError, BakeSettings, bake};
+use radiosity::progress::Progress;
+use radiosity::scene::Scene;
+
+pub use self::error::CliError;
+
+use self::args::Args;
+use self::document::Document;
+use self::output::Staging;
+use self::progress::Display;
+
+/// Set by Ctrl-C.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Bakes as the arguments say; the first is the name of the program. Ctrl-C cancels.
+///
+/// The exit code is 0 when the lightmaps are written, 1 when it failed, 2 when the arguments make no sense, and 130 when
+/// it was cancelled.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    static HANDLER: Once = Once::new();
+    HANDLER.call_once(|| {
+        let interrupt = || {
+            if INTERRUPTED.swap(true, Ordering::Relaxed) {
+                // Asked twice, it does not wait for anything.
+                std::process::exit(130);
+            }
+        };
+        if let Err(error) = ctrlc::set_handler(interrupt) {
+            eprintln!("warning: Ctrl-C will not clean up ({error})");
+        }
+    });
+    match try_run(args, &INTERRUPTED) {
+        Ok(summary) => {
+            println!("{summary}");
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            report(&error);
+            error.exit_code()
+        }
+    }
+}
+
+/// Tells an error; help, which comes as one, on standard output.
+fn report(error: &CliError) {
+    match error {
+        // It is lost where nobody listens.
+        CliError::Usage(error) => drop(error.print()),
+        _ => eprintln!("{error}"),
+    }
+}
+
+/// Bakes as [`run`] does, until `interrupted` becomes true. Returns what is to be told in the end.
+///
+/// # Errors
+///
+/// See [`CliError`]. What lay in the folder before is as it was.
+pub fn try_run(args: impl IntoIterator<Item = OsString>, interrupted: &AtomicBool) -> Result<String, CliError> {
+    let args = Args::try_parse_from(args).map_err(CliError::Usage)?;
+    bake_to_folder(&args, interrupted)
+}
+
+/// The whole way, in its order.
+fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliError> {
+    let start = Instant::now();
+    let mut document = match &args.scene {
+        Some(path) => Document::read(path)?,
+        None => builtin::cornell_document(),
+    };
+    let settings = args.settings();
+    let hash = write::hash(&document, args, &settings);
+    names::make_unique(&mut document);
+    let mut loaded = load::load(&document)?;
+    for material in &mut loaded.collected.scene.materials {
+        material.emissive *= args.emissive_scale;
+    }
+    for warning in &loaded.collected.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let staging = Staging::new(&args.out)?;
+    let bake = bake_watched(&loaded.collected.scene, &settings, interrupted)?;
+    for warning in &bake.report.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let written = write::Written { args, document, loaded, bake, hash, start };
+    written.write(staging)
+}
+
+/// Bakes on a thread of its own, shows how far it is, and stops when interrupted.
+fn bake_watched(scene: &Scene, settings: &BakeSettings, interrupted: &AtomicBool) -> Result<Bake, CliError> {
+    let progress = Progress::default();
+    let mut display = Display::new();
+    let result = thread::scope(|scope| {
+        let worker = scope.spawn(|| bake(scene, settings, &progress));
+        while !worker.is_finished() {
+            if interrupted.load(Ordering::Relaxed) {
+                progress.cancel();
+            }
+            display.update(&progress);
+            thread::sleep(Duration::from_millis(20));
+        }
+        worker.join()
+    });
+    display.finish();
+    if interrupted.load(Ordering::Relaxed) {
+        return Err(CliError::Cancelled);
+    }
+    match result {
+        Ok(result) => result.map_err(|error: BakeError| error.into()),
+        Err(_) => Err(CliError::new("the bake ended in an error of its own, which is told above; please report it")),
+    }
+}

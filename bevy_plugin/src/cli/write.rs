@@ -1,0 +1,130 @@
+//! All files of a finished bake.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::Path;
+use std::time::Instant;
+
+use radiosity::bake::{Bake, BakeSettings};
+use serde::Serialize;
+
+use super::args::Args;
+use super::document::Document;
+use super::error::CliError;
+use super::load::Loaded;
+use super::output::Staging;
+use super::prune::prune;
+use super::report_file::ReportFile;
+use super::{exr, preview, scene_file};
+use crate::baked::ktx2;
+use crate::baked::manifest::{FILE_NAME, LightEntry, Manifest, SurfaceKey};
+
+/// What is written, with all that is needed for it.
+pub(super) struct Written<'a> {
+    pub args: &'a Args,
+    pub document: Document,
+    pub loaded: Loaded,
+    pub bake: Bake,
+    pub hash: String,
+    pub start: Instant,
+}
+
+impl Written<'_> {
+    /// Writes the files, those last that say what the others are, and says what came out.
+    pub fn write(mut self, mut staging: Staging) -> Result<String, CliError> {
+        let manifest = self.manifest();
+        for (image, entry) in self.bake.images.iter().zip(&manifest.images) {
+            staging.write(&entry.file, &ktx2::encode(image))?;
+            staging.write(&exr_name(&entry.file), &exr::encode(image)?)?;
+        }
+        self.add_coordinates()?;
+        staging.write("scene.glb", &self.document.to_glb())?;
+        let Loaded { collected, camera, .. } = &self.loaded;
+        let (picture, ev100) = preview::encode(&collected.scene, &self.bake, *camera, self.args.ev100)?;
+        staging.write("preview.png", &picture)?;
+        let warnings = [&collected.warnings[..], &self.bake.report.warnings].concat();
+        let scene = self.args.scene.as_deref().and_then(Path::file_name);
+        let scene = scene.map_or("Cornell box".into(), |name| name.to_string_lossy());
+        let seconds = self.start.elapsed().as_secs_f64();
+        let report = ReportFile::new(self.args, &scene, &self.bake.report, ev100, seconds, &warnings);
+        staging.write("report.json", &json(&report)?)?;
+        staging.write(FILE_NAME, &json(&manifest)?)?;
+        staging.commit()?;
+        self.remove_leftovers();
+        Ok(self.summary(ev100, seconds))
+    }
+
+    fn manifest(&self) -> Manifest {
+        let key = |surface: usize| {
+            let source = self.loaded.sources[surface];
+            let node_name = self.document.list("nodes").get(source.node)?["name"].as_str()?.to_owned();
+            let (node, mesh, primitive) = (source.node, source.mesh, source.primitive);
+            Some(SurfaceKey::Gltf { node, node_name, mesh, primitive })
+        };
+        let mut manifest = Manifest::new(self.hash.clone(), &self.bake, key);
+        for image in &mut manifest.images {
+            image.exr = Some(exr_name(&image.file));
+        }
+        manifest.lights = self.loaded.light_nodes.iter().map(|&node| LightEntry::Gltf { node }).collect();
+        manifest
+    }
+
+    /// Puts the lightmap coordinates of every baked primitive into the glTF file, once.
+    fn add_coordinates(&mut self) -> Result<(), CliError> {
+        let (mut done, mut replaced) = (HashSet::new(), HashSet::new());
+        for (source, surface) in self.loaded.sources.iter().zip(&self.loaded.collected.scene.surfaces) {
+            let Some(uv) = &self.bake.uvs[surface.mesh] else { continue };
+            if done.insert((source.mesh, source.primitive)) {
+                scene_file::set_lightmap_uv(&mut self.document, source.mesh, source.primitive, uv, &mut replaced)?;
+            }
+        }
+        prune(&mut self.document, &replaced);
+        Ok(())
+    }
+
+    /// Removes the lightmaps of an earlier bake that had more of them.
+    fn remove_leftovers(&self) {
+        for index in self.bake.images.len().. {
+            let [lightmap, exr] = ["ktx2", "exr"].map(|kind| self.args.out.join(format!("lightmap-{index}.{kind}")));
+            // The EXR may be gone already.
+            drop(fs::remove_file(exr));
+            if fs::remove_file(lightmap).is_err() {
+                break;
+            }
+        }
+    }
+
+    fn summary(&self, ev100: f32, seconds: f64) -> String {
+        let report = &self.bake.report;
+        let images: Vec<String> =
+            self.bake.images.iter().map(|image| format!("{} x {}", image.width, image.height)).collect();
+        format!(
+            "{}: {} lightmap(s) of {} texels for {} surfaces, {:.2} texels per meter, EV100 {ev100:.1}, {seconds:.1} s",
+            self.args.out.display(),
+            images.len(),
+            images.join(", "),
+            report.surfaces,
+            report.texels_per_meter,
+        )
+    }
+}
+
+fn exr_name(ktx2_name: &str) -> String {
+    format!("{}.exr", ktx2_name.trim_end_matches(".ktx2"))
+}
+
+fn json(value: &impl Serialize) -> Result<Vec<u8>, CliError> {
+    serde_json::to_vec_pretty(value).map_err(|error| CliError::new(format!("cannot write JSON: {error}")))
+}
+
+/// Hash of the scene and of all settings that have a say in the texels: FNV-1a, which stays the same forever.
+pub(super) fn hash(document: &Document, args: &Args, settings: &BakeSettings) -> String {
+    // The result depends on neither threads nor memory.
+    let settings = BakeSettings { threads: 0, memory_bytes: 0, ..settings.clone() };
+    let said = format!("{settings:?} {}", args.emissive_scale);
+    let parts = [document.json.to_string().as_bytes(), &document.buffer, said.as_bytes()].concat();
+    let hash = parts
+        .iter()
+        .fold(0xCBF2_9CE4_8422_2325, |hash: u64, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3));
+    format!("{hash:016x}")
+}
