@@ -98,15 +98,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter_after(Stage::Finish, &tracer);
     let images = assemble::images(&texels, &is_valid, &patches, &direct, &indirect, &workers, progress)?;
 
-    let done = Done {
-        world: &world,
-        is_valid: &is_valid,
-        patches: &patches,
-        rows: &rows,
-        bounce: &bounce,
-        direct: &direct,
-        indirect: &indirect,
-    };
+    let done = Done { field: &field, is_valid: &is_valid, rows: &rows, direct: &direct, indirect: &indirect };
     let report = Report {
         nodes,
         images: images.len(),

@@ -6,21 +6,18 @@ use alloc::vec::Vec;
 
 use glam::Vec3;
 
-use super::bounce::{Bounce, LARGEST_REFLECTANCE};
+use super::bounce::LARGEST_REFLECTANCE;
+use super::field::Field;
 use super::{EstimatedError, Report};
 use crate::lightmap::{Layout, NONE, Smooth};
 use crate::math;
-use crate::patch::Patches;
-use crate::scene::World;
 use crate::transport::Rows;
 
 /// What a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
 pub(super) struct Done<'a> {
-    pub world: &'a World<'a>,
+    pub field: &'a Field<'a>,
     pub is_valid: &'a [bool],
-    pub patches: &'a Patches,
     pub rows: &'a Rows,
-    pub bounce: &'a Bounce,
     pub direct: &'a [Vec3],
     pub indirect: &'a [Smooth],
 }
@@ -32,14 +29,14 @@ impl Done<'_> {
         let mut warnings = layout.warnings.clone();
         warnings.extend(self.warnings());
         Report {
-            triangles: self.world.blockers,
+            triangles: self.field.world.blockers,
             surfaces: layout.placements.iter().flatten().count(),
             valid_texels,
             invalid_texels: self.is_valid.len() - valid_texels,
-            patches: self.patches.list.len(),
+            patches: self.field.patches.list.len(),
             texels_per_meter: layout.texels_per_meter,
             closure_error: self.rows.closure_error(),
-            energy_balance: self.bounce.energy_balance(self.patches, self.rows, self.world.scene.sky),
+            energy_balance: self.field.bounce.energy_balance(self.field.patches, self.rows, self.field.world.scene.sky),
             estimated_error: self.estimated_error(),
             warnings,
             ..Report::default()
@@ -66,12 +63,12 @@ impl Done<'_> {
             let scale = total(index) + 0.1 * mean;
             f64::from(self.indirect[index].variance) / (scale * scale)
         };
-        let difference = |index: usize| match self.patches.of_texel[index] {
+        let difference = |index: usize| match self.field.patches.of_texel[index] {
             NONE => 0.0,
             patch => {
                 let patch = patch as usize;
-                let difference = self.bounce.indirect[patch] - self.indirect[index].irradiance;
-                level(difference * self.bounce.reflectance[patch])
+                let difference = self.field.bounce.indirect[patch] - self.indirect[index].irradiance;
+                level(difference * self.field.bounce.reflectance[patch])
             }
         };
         EstimatedError {
@@ -82,7 +79,7 @@ impl Done<'_> {
 
     /// What the user should know about the scene.
     fn warnings(&self) -> Vec<String> {
-        let (world, bounce) = (self.world, self.bounce);
+        let (world, bounce) = (self.field.world, self.field.bounce);
         let mut warnings = Vec::new();
         if world.not_finite > 0 {
             warnings.push(format!(
