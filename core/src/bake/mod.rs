@@ -32,7 +32,7 @@ use crate::progress::{Cancelled, Progress, Stage};
 use crate::scene::{Scene, World};
 use crate::transport::Tracer;
 use bounce::Stage as PatchStage;
-use field::Field;
+use field::{Field, Incident};
 use rays::RayBudget;
 use summary::Done;
 
@@ -90,13 +90,14 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     bounce.solve(&rows, scene.sky);
 
     log.enter_after(Stage::Gather, &tracer);
-    let incident = field::incident(&direct, &texels, &patches, &bounce, &workers, progress)?;
-    let field =
-        Field { world: &world, texels: &texels, patches: &patches, bounce: &bounce, is_light: &is_light, incident };
+    let incident = Incident::new(&direct, &texels, &patches, &bounce, &workers, progress)?;
+    let spread = budget.spread();
+    let (world, texels, patches, bounce) = (&world, &texels, &patches, &bounce);
+    let field = Field { world, texels, patches, bounce, is_light: &is_light, spread, incident };
     let (indirect, nodes) = baker.indirect(&is_valid, &field)?;
 
     log.enter_after(Stage::Finish, &tracer);
-    let images = assemble::images(&texels, &is_valid, &patches, &direct, &indirect, &workers, progress)?;
+    let images = assemble::images(texels, &is_valid, patches, &direct, &indirect, &workers, progress)?;
 
     let done = Done { field: &field, is_valid: &is_valid, rows: &rows, direct: &direct, indirect: &indirect };
     let report = Report {

@@ -2,6 +2,7 @@
 
 use super::Quality;
 use crate::lightmap::{GatherSettings, ShadowRays};
+use crate::math;
 
 /// Rays for each purpose. Counts are powers of two, as Sobol points like them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +13,13 @@ pub(super) struct RayBudget {
     pub patches: usize,
     pub shadow: ShadowRays,
     pub gather: GatherSettings,
+}
+
+impl RayBudget {
+    /// Width of the cone that one gathered ray stands for, at a distance of one meter: `2 / sqrt(rays)`.
+    pub fn spread(&self) -> f32 {
+        2.0 / math::sqrt(self.gather.rays as f32)
+    }
 }
 
 impl From<Quality> for RayBudget {

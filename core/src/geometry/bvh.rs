@@ -110,7 +110,7 @@ mod tests {
             let ray = Ray { origin, direction, end: if index % 3 == 0 { 0.2 } else { f32::INFINITY } };
             assert_eq!(tree.nearest(&ray), all.nearest(&ray));
             let odd = |hit: &Hit| hit.triangle % 2 == 1;
-            let fronts_first = |hit: &Hit| odd(hit).then(|| hit.distance + if hit.front { 0.0 } else { 0.1 });
+            let fronts_first = |hit: &Hit| odd(hit).then_some(hit.distance + if hit.front { 0.0 } else { 0.1 });
             assert_eq!(tree.first(&ray, fronts_first), all.first(&ray, fronts_first));
             assert_eq!(tree.any(&ray, odd), all.any(&ray, odd));
         }

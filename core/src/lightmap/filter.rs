@@ -12,9 +12,9 @@ use crate::progress::{Cancelled, Progress};
 /// Width of the filter as a share of the harmonic mean distance of what a texel sees.
 const WIDTH: f32 = 0.06;
 /// Widest filter, as a standard deviation in texels.
-const WIDEST: f32 = 2.0;
+const WIDEST: f32 = 3.0;
 /// Texels to each side that are looked at.
-const REACH: i32 = 4;
+const REACH: i32 = 6;
 
 /// Indirect light after filtering.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
