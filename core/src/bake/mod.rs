@@ -94,7 +94,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let spread = budget.spread();
     let (world, texels, patches, bounce) = (&world, &texels, &patches, &bounce);
     let field = Field { world, texels, patches, bounce, is_light: &is_light, spread, incident };
-    let (indirect, nodes) = baker.indirect(&is_valid, &field)?;
+    let (indirect, nodes) = baker.indirect(&is_valid, &direct, &field)?;
 
     log.enter_after(Stage::Finish, &tracer);
     let images = assemble::images(texels, &is_valid, patches, &direct, &indirect, &workers, progress)?;
@@ -146,7 +146,7 @@ impl<O: Occluders> Baker<'_, O> {
     }
 
     /// Indirect light for each texel, and the number of nodes at which it was gathered.
-    fn indirect(&self, is_valid: &[bool], field: &Field) -> Result<(Vec<Smooth>, usize), Cancelled> {
+    fn indirect(&self, is_valid: &[bool], direct: &[Vec3], field: &Field) -> Result<(Vec<Smooth>, usize), Cancelled> {
         let gather = Gather {
             texels: field.texels,
             is_valid,
@@ -156,7 +156,14 @@ impl<O: Occluders> Baker<'_, O> {
             settings: self.budget.gather,
             seed: self.seed(4),
         };
-        let gathered = gather.run(self.workers, self.progress)?;
+        let mut gathered = gather.run(self.workers, self.progress)?;
+        let lights: Vec<f32> = direct
+            .iter()
+            .zip(&gathered)
+            .map(|(direct, node)| (*direct + node.irradiance).element_sum() / 3.0)
+            .collect();
+        let mean = lights.iter().sum::<f32>() / lights.len().max(1) as f32;
+        gather.refine(&mut gathered, |texel| lights[texel] + 0.1 * mean, self.workers, self.progress)?;
         let nodes = gathered.iter().filter(|node| node.width > 0).count();
         Ok((filter(&gathered, field.texels, is_valid, self.workers, self.progress)?, nodes))
     }

@@ -29,19 +29,19 @@ impl From<Quality> for RayBudget {
                 row: 64,
                 patches: 1024,
                 shadow: ShadowRays { first: 8, sharp: 4, penumbra: 16 },
-                gather: GatherSettings { rays: 16, most_rays: 128, spacing: 0.25, contrast: 0.15 },
+                gather: GatherSettings { rays: 16, most_rays: 128, spacing: 0.25, contrast: 0.15, noise: 0.06 },
             },
             Quality::Medium => Self {
                 row: 128,
                 patches: 4096,
                 shadow: ShadowRays { first: 16, sharp: 8, penumbra: 64 },
-                gather: GatherSettings { rays: 64, most_rays: 512, spacing: 0.12, contrast: 0.08 },
+                gather: GatherSettings { rays: 64, most_rays: 512, spacing: 0.12, contrast: 0.08, noise: 0.02 },
             },
             Quality::High => Self {
                 row: 256,
                 patches: 16384,
                 shadow: ShadowRays { first: 32, sharp: 16, penumbra: 256 },
-                gather: GatherSettings { rays: 256, most_rays: 2048, spacing: 0.06, contrast: 0.04 },
+                gather: GatherSettings { rays: 256, most_rays: 2048, spacing: 0.06, contrast: 0.04, noise: 0.01 },
             },
         }
     }

@@ -22,6 +22,8 @@ pub struct GatherSettings {
     pub spacing: f32,
     /// Cells whose corners differ by more than this share of their mean are split.
     pub contrast: f32,
+    /// Texels whose noise is still above this share of their light get three times as many rays.
+    pub noise: f32,
 }
 
 /// What a node saw.
@@ -33,8 +35,22 @@ pub struct Gathered {
     pub variance: f32,
     /// Harmonic mean distance of what was seen, in meters.
     pub distance: f32,
+    /// How many rays; 0: the value is interpolated.
+    pub rays: u32,
     /// Texels for which the node stands, along one side; 0: no node, the value is interpolated.
     pub width: u8,
+}
+
+impl Gathered {
+    /// Takes in what more rays saw from the same place.
+    fn merge(&mut self, more: &Self) {
+        let all = (self.rays + more.rays) as f32;
+        let (old, new) = (self.rays as f32 / all, more.rays as f32 / all);
+        self.irradiance = self.irradiance * old + more.irradiance * new;
+        self.variance = self.variance * (old * old) + more.variance * (new * new);
+        self.distance = 1.0 / (old / self.distance + new / more.distance);
+        self.rays += more.rays;
+    }
 }
 
 /// All that gathering needs to know.
@@ -114,24 +130,63 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
         }
         let rays = (self.settings.rays * u32::from(width)).min(self.settings.most_rays);
         let found = workers.map(nodes.len(), 32, progress, |range| {
-            nodes[range].iter().map(|&texel| Gathered { width, ..self.node(texel, rays) }).collect()
+            nodes[range].iter().map(|&texel| Gathered { width, ..self.node(texel, rays, self.seed) }).collect()
         })?;
         nodes.into_iter().zip(found).for_each(|(texel, node)| gathered[texel] = node);
         Ok(())
+    }
+
+    /// Gathers again at texels that stand for themselves and whose noise is too large for their light.
+    ///
+    /// `light` is the mean level of all light at a texel, plus a tenth of the mean of all: what noise is seen against.
+    pub fn refine(
+        &self,
+        gathered: &mut [Gathered],
+        light: impl Fn(usize) -> f32,
+        workers: &Workers,
+        progress: &Progress,
+    ) -> Result<(), Cancelled> {
+        let is_noisy = |&texel: &usize| {
+            let limit = self.settings.noise * light(texel);
+            gathered[texel].width == 1 && self.variance_around(texel, gathered) > limit * limit
+        };
+        let noisy: Vec<usize> = (0..gathered.len()).filter(is_noisy).collect();
+        let found = workers.map(noisy.len(), 16, progress, |range| {
+            let more = 2 * self.settings.rays;
+            noisy[range].iter().map(|&texel| self.node(texel, more, hash(self.seed, 1))).collect()
+        })?;
+        noisy.into_iter().zip(found).for_each(|(texel, more): (usize, Gathered)| gathered[texel].merge(&more));
+        Ok(())
+    }
+
+    /// The mean variance of the nodes around a texel: that of one alone is too uncertain.
+    fn variance_around(&self, index: usize, gathered: &[Gathered]) -> f32 {
+        let Texel { pixel: [x, y], image, chart, .. } = self.texels.list[index];
+        let (mut sum, mut count) = (0.0, 0.0);
+        for k in 0..9 {
+            let (x, y) = (i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1);
+            let Some(other) = self.texels.at_pixel(u32::from(image), x, y) else { continue };
+            let other = other as usize;
+            if self.is_valid[other] && self.texels.list[other].chart == chart {
+                sum += gathered[other].variance;
+                count += 1.0;
+            }
+        }
+        sum / count
     }
 
     /// Gathers at one texel. Two halves of the rays follow sequences of their own.
     ///
     /// The texels of a tile share a sequence and take one run of its points after the other: each run fills the
     /// hemisphere evenly, and so do all runs of neighbors together, which is what the filter mixes.
-    fn node(&self, index: usize, rays: u32) -> Gathered {
+    fn node(&self, index: usize, rays: u32, seed: u32) -> Gathered {
         let texel = &self.texels.list[index];
         let (tile, place) = self.place_in_tile(texel);
         let flat = self.tracer.world.normals[texel.triangle as usize];
         let mut halves = [Vec3::ZERO; 2];
         let mut inverse_distances = 0.0;
         for (half, sum) in halves.iter_mut().enumerate() {
-            let seed = hash(hash(self.seed, half as u32), tile);
+            let seed = hash(hash(seed, half as u32), tile);
             let sequence = Sobol::new(seed);
             for k in place * (rays / 2)..(place + 1) * (rays / 2) {
                 let direction = above(cosine_direction(sequence.square(k), texel.normal), flat);
@@ -152,6 +207,7 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
             irradiance: (a + b) * 0.5,
             variance: (a - b).length_squared() / 12.0,
             distance: 2.0 * half / f32::max(inverse_distances, 1e-9),
+            rays,
             width: 0,
         }
     }
@@ -225,7 +281,7 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
                 };
                 let irradiance = [a, b, c, d].iter().zip(weights).map(|(node, weight)| node.irradiance * weight).sum();
                 let (variance, distance) = (mix(|node| node.variance), mix(|node| node.distance));
-                all[texel] = Gathered { irradiance, variance, distance, width: 0 };
+                all[texel] = Gathered { irradiance, variance, distance, rays: 0, width: 0 };
                 is_done[texel] = true;
             }
         }
