@@ -44,8 +44,8 @@ impl Stage {
 
 /// Shared between the bake, which writes, and whoever watches or cancels it.
 pub struct Progress {
-    stage: AtomicU32,
-    done: AtomicU32,
+    /// The stage in the upper 8 bits, the share of it that is done in the others, so that both change at once.
+    reached: AtomicU32,
     part: AtomicU32,
     parts: AtomicU32,
     cancelled: AtomicBool,
@@ -72,6 +72,10 @@ pub struct Cancelled;
 /// Where in the whole bake each stage starts, from typical times; the last entry is the end.
 const START: [f32; 8] = [0.0, 0.05, 0.08, 0.40, 0.50, 0.51, 0.98, 1.0];
 
+const SHARE_BITS: u32 = 24;
+/// All of a stage, in units of the share that is done.
+const WHOLE: u32 = (1 << SHARE_BITS) - 1;
+
 #[cfg(feature = "std")]
 impl Default for Progress {
     /// Watches a bake that starts now by the clock of the machine.
@@ -85,8 +89,7 @@ impl Progress {
     /// Watches a bake by a clock that tells the seconds since some moment.
     pub fn with_clock(clock: impl Fn() -> f64 + Send + Sync + 'static) -> Self {
         Self {
-            stage: AtomicU32::new(0),
-            done: AtomicU32::new(0),
+            reached: AtomicU32::new(0),
             part: AtomicU32::new(0),
             parts: AtomicU32::new(1),
             cancelled: AtomicBool::new(false),
@@ -101,8 +104,9 @@ impl Progress {
 
     /// What the bake is doing now.
     pub fn snapshot(&self) -> Snapshot {
-        let index = (self.stage.load(Ordering::Relaxed) as usize).min(Stage::ALL.len() - 1);
-        let stage_done = f32::from_bits(self.done.load(Ordering::Relaxed));
+        let reached = self.reached.load(Ordering::Relaxed);
+        let index = ((reached >> SHARE_BITS) as usize).min(Stage::ALL.len() - 1);
+        let stage_done = (reached & WHOLE) as f32 / WHOLE as f32;
         let done = START[index] + (START[index + 1] - START[index]) * stage_done;
         let seconds = (self.clock)() as f32;
         let remaining_seconds = if done > 0.0 { seconds * (1.0 - done) / done } else { f32::INFINITY };
@@ -116,9 +120,8 @@ impl Progress {
 
     /// Tells that a stage begins.
     pub fn enter(&self, stage: Stage) {
-        self.done.store(0, Ordering::Relaxed);
         self.enter_part(0, 1);
-        self.stage.store(stage as u32, Ordering::Relaxed);
+        self.reached.store((stage as u32) << SHARE_BITS, Ordering::Relaxed);
     }
 
     /// Tells that one of several equal parts of the stage begins, counted from 0.
@@ -127,16 +130,46 @@ impl Progress {
         self.parts.store(parts as u32, Ordering::Relaxed);
     }
 
-    /// Tells the share of the part of the stage that is done, in `[0, 1]`, and whether to go on.
+    /// Tells the share of the part of the stage that is done, in `[0, 1]`, and whether to go on. What is done stays done:
+    /// a smaller share than before changes nothing.
     pub fn advance(&self, done: f32) -> Result<(), Cancelled> {
         let (part, parts) = (self.part.load(Ordering::Relaxed), self.parts.load(Ordering::Relaxed));
         let done = (part as f32 + done.clamp(0.0, 1.0)) / parts.max(1) as f32;
-        self.done.store(done.min(1.0).to_bits(), Ordering::Relaxed);
+        let stage = self.reached.load(Ordering::Relaxed) & !WHOLE;
+        self.reached.fetch_max(stage | (done.min(1.0) * WHOLE as f32) as u32, Ordering::Relaxed);
         self.check()
     }
 
     /// Whether to go on.
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Parts, and steps of a stage that each count from 0, never turn a bar back.
+    #[test]
+    fn what_is_done_stays_done() {
+        let progress = Progress::with_clock(|| 1.0);
+        let mut before = 0.0;
+        let mut assert_not_back = || {
+            let now = progress.snapshot();
+            assert!(now.done >= before && now.stage_done <= 1.0, "{now:?} after {before}");
+            before = now.done;
+        };
+        for stage in Stage::ALL {
+            progress.enter(stage);
+            assert_not_back();
+            for (part, share) in [(0, 0.7), (0, 1.0), (1, 0.0), (1, 1.0), (0, 0.2)] {
+                progress.enter_part(part, 2);
+                progress.advance(share).unwrap();
+                assert_not_back();
+            }
+            assert_eq!(progress.snapshot().stage_done, 1.0);
+        }
+        assert_eq!(progress.snapshot().done, 1.0);
     }
 }
