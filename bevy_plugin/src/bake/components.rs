@@ -35,3 +35,11 @@ pub struct BakeId(pub String);
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component)]
 pub struct AngularDiameter(pub f32);
+
+/// Bakes as soon as this entity is there and everything that is `Baked` is loaded, with the resource `BakeSettings`.
+///
+/// For apps that bake once, at their start.
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[reflect(Component, Default)]
+#[require(Baked)]
+pub struct BakeOnLoad;

@@ -47,6 +47,9 @@ pub struct SurfaceEntry {
     pub image: usize,
     /// Smallest `u` and `v`, then greatest `u` and `v`, in `0..1`, `v` down.
     pub uv_rect: [f32; 4],
+    /// File beside the manifest with the lightmap coordinates of the mesh; without one the mesh brings them along.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uv: Option<String>,
 }
 
 /// How a surface is found again.
@@ -98,10 +101,16 @@ impl Manifest {
         });
         let surfaces = bake.placements.iter().enumerate().filter_map(|(index, placement)| {
             let Placement { image, min, max } = (*placement)?;
-            Some(SurfaceEntry { key: surface_key(index)?, image, uv_rect: [min.x, min.y, max.x, max.y] })
+            Some(SurfaceEntry { key: surface_key(index)?, image, uv_rect: [min.x, min.y, max.x, max.y], uv: None })
         });
         Self { version: 1, hash, images: images.collect(), surfaces: surfaces.collect(), lights: Vec::new() }
     }
+}
+
+/// FNV-1a in hexadecimal, which stays the same forever.
+pub fn hash<'a>(bytes: impl IntoIterator<Item = &'a u8>) -> String {
+    let mix = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3);
+    format!("{:016x}", bytes.into_iter().fold(0xCBF2_9CE4_8422_2325, mix))
 }
 
 #[cfg(test)]
@@ -116,7 +125,10 @@ mod tests {
                         {"bake_id":"floor","image":0,"uv_rect":[0,0,1,1]}]}"#;
         let manifest: Manifest = serde_json::from_str(text).unwrap();
         let wall = SurfaceKey::Gltf { node: 1, node_name: "Wall".into(), mesh: 2, primitive: 3 };
-        assert_eq!(manifest.surfaces[0], SurfaceEntry { key: wall, image: 0, uv_rect: [0.0, 0.25, 0.5, 1.0] });
+        assert_eq!(
+            manifest.surfaces[0],
+            SurfaceEntry { key: wall, image: 0, uv_rect: [0.0, 0.25, 0.5, 1.0], uv: None }
+        );
         assert_eq!(manifest.surfaces[1].key, SurfaceKey::Entity { bake_id: "floor".into() });
         let again: Manifest = serde_json::from_str(&serde_json::to_string(&manifest).unwrap()).unwrap();
         assert_eq!(again, manifest);

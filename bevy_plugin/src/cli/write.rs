@@ -17,7 +17,7 @@ use super::prune::prune;
 use super::report_file::ReportFile;
 use super::{exr, preview, scene_file};
 use crate::baked::ktx2;
-use crate::baked::manifest::{FILE_NAME, LightEntry, Manifest, SurfaceKey};
+use crate::baked::manifest::{self, FILE_NAME, LightEntry, Manifest, SurfaceKey};
 
 /// What is written, with all that is needed for it.
 pub(super) struct Written<'a> {
@@ -117,14 +117,11 @@ fn json(value: &impl Serialize) -> Result<Vec<u8>, CliError> {
     serde_json::to_vec_pretty(value).map_err(|error| CliError::new(format!("cannot write JSON: {error}")))
 }
 
-/// Hash of the scene and of all settings that have a say in the texels: FNV-1a, which stays the same forever.
+/// Hash of the scene and of all settings that have a say in the texels.
 pub(super) fn hash(document: &Document, args: &Args, settings: &BakeSettings) -> String {
     // The result depends on neither threads nor memory.
     let settings = BakeSettings { threads: 0, memory_bytes: 0, ..settings.clone() };
     let said = format!("{settings:?} {}", args.emissive_scale);
     let parts = [document.json.to_string().as_bytes(), &document.buffer, said.as_bytes()].concat();
-    let hash = parts
-        .iter()
-        .fold(0xCBF2_9CE4_8422_2325, |hash: u64, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3));
-    format!("{hash:016x}")
+    manifest::hash(&parts)
 }

@@ -1,0 +1,12 @@
+//! What most apps use.
+
+#[cfg(feature = "render")]
+pub use crate::RadiosityPlugins;
+pub use crate::bake::{AngularDiameter, BakeId, BakeOnLoad, Baked, NotBaked};
+#[cfg(feature = "render")]
+pub use crate::bake::{
+    BakeCancelled, BakeDone, BakeFailed, BakeProgress, BakeSettings, CancelBake, Quality, RemoveBake, Resolution,
+    StartBake, UvMode,
+};
+#[cfg(feature = "render")]
+pub use crate::baked::{BakeSaved, BakedScene, BakedSceneRoot, SaveBake, SaveFailed};
