@@ -1,6 +1,7 @@
 //! Helpers shared by the tests of the workspace.
 
 pub mod glb;
+pub mod render;
 
 use std::fs;
 use std::path::{Path, PathBuf};

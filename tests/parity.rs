@@ -1,0 +1,137 @@
+//! A light that is baked and the same light in real time give the same pixel, within 1 % where light and view follow
+//! the normal of a matt surface. Each app renders a wall twice: lit in real time, then by the map without the light.
+
+use std::time::{Duration, Instant};
+
+use bevy::light::RectLight;
+use bevy::pbr::Lightmap;
+use bevy::prelude::*;
+use bevy_radiosity::RadiosityPlugins;
+use bevy_radiosity::prelude::*;
+use radiosity_tests::render::Studio;
+
+/// Where the light is, above the middle of the wall, in meters.
+const HEIGHT: f32 = 1.5;
+const TOLERANCE: f32 = 0.01;
+
+fn studio() -> Option<Studio> {
+    let mut studio = Studio::new()?;
+    studio.app.add_plugins(RadiosityPlugins);
+    let world = studio.app.world_mut();
+    let mesh = world.resource_mut::<Assets<Mesh>>().add(Rectangle::new(4.0, 4.0));
+    let material = matt(Color::srgb(0.9, 0.7, 0.5));
+    let material = world.resource_mut::<Assets<StandardMaterial>>().add(material);
+    world.spawn((Baked::default(), Mesh3d(mesh), MeshMaterial3d(material)));
+    Some(studio)
+}
+
+/// Without specular reflection.
+fn matt(base_color: Color) -> StandardMaterial {
+    StandardMaterial { base_color, perceptual_roughness: 1.0, reflectance: 0.0, ..default() }
+}
+
+fn warm() -> Color {
+    Color::srgb(1.0, 0.85, 0.6)
+}
+
+#[derive(Resource, Default)]
+struct Outcome(Option<Result<(), String>>);
+
+/// Bakes everything and waits for the end.
+fn bake(app: &mut App) {
+    app.init_resource::<Outcome>()
+        .add_observer(|_: On<BakeDone>, mut outcome: ResMut<Outcome>| outcome.0 = Some(Ok(())))
+        .add_observer(|failed: On<BakeFailed>, mut outcome: ResMut<Outcome>| {
+            outcome.0 = Some(Err(failed.error.to_string()));
+        });
+    let settings = BakeSettings { resolution: Resolution::TexelsPerMeter(16.0), ..default() };
+    app.world_mut().trigger(StartBake { settings });
+    let start = Instant::now();
+    while app.world().resource::<Outcome>().0.is_none() {
+        assert!(start.elapsed() < Duration::from_secs(300), "the bake does not end");
+        app.update();
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    app.world_mut().resource_mut::<Outcome>().0.take().unwrap().unwrap();
+}
+
+fn assert_same(baked: Vec3, real_time: Vec3) {
+    assert!(real_time.min_element() > 1e-3, "the wall is dark in real time: {real_time}");
+    let error = ((baked - real_time) / real_time).abs().max_element();
+    println!("{baked} is baked, {real_time} in real time: {:.3} % apart", 100.0 * error);
+    assert!(error < TOLERANCE, "{baked} is baked, {real_time} in real time: {:.2} % apart", 100.0 * error);
+}
+
+/// Along -z from above the wall.
+fn assert_light_is_the_same_baked(light: impl Bundle) {
+    let Some(mut studio) = studio() else { return };
+    let light = studio.app.world_mut().spawn((Baked::default(), light, Transform::from_xyz(0.0, 0.0, HEIGHT))).id();
+    let real_time = studio.center();
+    bake(&mut studio.app);
+    let with_light = studio.center();
+    assert_same(with_light, real_time);
+    studio.app.world_mut().despawn(light);
+    assert_eq!(studio.center(), with_light, "a baked light adds nothing to a matt surface");
+    studio.app.world_mut().trigger(RemoveBake);
+    assert_eq!(studio.center(), Vec3::ZERO, "without map and light it is dark");
+}
+
+#[test]
+fn point_light() {
+    assert_light_is_the_same_baked(PointLight { intensity: 20_000.0, color: warm(), ..default() });
+}
+
+#[test]
+fn spot_light() {
+    let (inner_angle, outer_angle) = (0.3, 0.6);
+    assert_light_is_the_same_baked(SpotLight {
+        intensity: 20_000.0,
+        color: warm(),
+        inner_angle,
+        outer_angle,
+        ..default()
+    });
+}
+
+#[test]
+fn directional_light() {
+    assert_light_is_the_same_baked(DirectionalLight { illuminance: 1_000.0, color: warm(), ..default() });
+}
+
+#[test]
+fn rect_light() {
+    assert_light_is_the_same_baked(RectLight {
+        intensity: 5_000.0,
+        color: warm(),
+        width: 1.0,
+        height: 0.5,
+        ..default()
+    });
+}
+
+/// An emissive surface lights nothing in real time, so a rectangular light of the same luminance stands in for it.
+#[test]
+fn emissive_quad() {
+    let Some(mut studio) = studio() else { return };
+    let (width, height, intensity) = (1.0, 0.5, 5_000.0);
+    let light = RectLight { intensity, width, height, ..default() };
+    let at = Transform::from_xyz(0.0, 0.0, HEIGHT);
+    let light = studio.app.world_mut().spawn((light, at)).id();
+    let real_time = studio.center();
+
+    let world = studio.app.world_mut();
+    world.despawn(light);
+    let luminance = intensity / (width * height * std::f32::consts::PI);
+    let emissive = LinearRgba::rgb(luminance, luminance, luminance);
+    let mesh = world.resource_mut::<Assets<Mesh>>().add(Rectangle::new(width, height));
+    let material = StandardMaterial { emissive, ..matt(Color::BLACK) };
+    let material = world.resource_mut::<Assets<StandardMaterial>>().add(material);
+    // The camera is behind it and so does not see it.
+    let faces_wall = at.looking_to(Vec3::Z, Vec3::Y);
+    world.spawn((Baked::default(), Mesh3d(mesh), MeshMaterial3d(material), faces_wall));
+    assert_eq!(studio.center(), Vec3::ZERO);
+    bake(&mut studio.app);
+    assert_same(studio.center(), real_time);
+    let lightmaps = studio.app.world_mut().query::<&Lightmap>().iter(studio.app.world()).count();
+    assert_eq!(lightmaps, 2);
+}
