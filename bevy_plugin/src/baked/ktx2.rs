@@ -39,8 +39,8 @@ pub fn encode(image: &LightmapImage) -> Vec<u8> {
 ///
 /// Negative values and NaN become 0, values above 65408 become that. As in `EXT_texture_shared_exponent`.
 pub fn shared_exponent(rgb: [f32; 3]) -> u32 {
-    // `max` and `min` return the number where the other one is NaN.
-    let rgb = rgb.map(|channel| channel.max(0.0).min(MAX));
+    // NaN is not greater than zero.
+    let rgb = rgb.map(|channel| if channel > 0.0 { channel.min(MAX) } else { 0.0 });
     let largest = rgb[0].max(rgb[1]).max(rgb[2]);
     let mut exponent = floor_log2(largest).max(-EXPONENT_BIAS - 1) + 1 + EXPONENT_BIAS;
     if mantissa(largest, exponent) == 1 << MANTISSA_BITS {
