@@ -15,6 +15,7 @@ use radiosity_tests::render::app_without_gpu;
 /// What was heard so far.
 #[derive(Resource, Default)]
 struct Heard {
+    started: Vec<usize>,
     progress: Vec<BakeProgress>,
     done: Vec<Report>,
     failed: Vec<BakeError>,
@@ -30,6 +31,9 @@ impl Heard {
 fn app(assets: &Path) -> App {
     let mut app = app_without_gpu(assets, RadiosityPlugins);
     app.init_resource::<Heard>()
+        .add_observer(|started: On<BakeStarted>, mut heard: ResMut<Heard>| {
+            heard.started.push(started.collected.surfaces.len());
+        })
         .add_observer(|progress: On<BakeProgress>, mut heard: ResMut<Heard>| heard.progress.push(*progress))
         .add_observer(|done: On<BakeDone>, mut heard: ResMut<Heard>| heard.done.push(done.report.clone()))
         .add_observer(|failed: On<BakeFailed>, mut heard: ResMut<Heard>| heard.failed.push(failed.error.clone()))
@@ -82,6 +86,7 @@ fn bakes_on_load() {
     wait_until(&mut app, |heard| heard.ends() > 0);
     let heard = app.world().resource::<Heard>();
     assert_eq!(heard.failed, []);
+    assert_eq!(heard.started, [2]);
     assert_eq!((heard.done.len(), heard.done[0].surfaces), (1, 2));
     assert!(heard.progress.is_sorted_by(|a, b| a.done <= b.done), "{:?}", heard.progress);
     assert_eq!(lightmaps(&mut app), 2);

@@ -10,7 +10,7 @@
 //!
 //! fn spawn(mut commands: Commands, assets: Res<AssetServer>) {
 //!     commands.spawn((WorldAssetRoot(assets.load("level.glb#Scene0")), BakeOnLoad));
-//!     commands.spawn((Camera3d::default(), Transform::from_xyz(0.0, 1.0, 3.0)));
+//!     commands.spawn((Camera3d::default(), Transform::from_xyz(0.0, 1.5, 4.0)));
 //! }
 //! ```
 //!
@@ -27,8 +27,8 @@
 //!
 //! # What to say and hear
 //!
-//! `StartBake`, `CancelBake`, `RemoveBake` and `SaveBake` are events to trigger; `BakeProgress`, `BakeDone`,
-//! `BakeFailed`, `BakeCancelled`, `BakeSaved` and `SaveFailed` are events to observe.
+//! `StartBake`, `CancelBake`, `RemoveBake` and `SaveBake` are events to trigger; `BakeStarted`,
+//! `BakeProgress`, `BakeDone`, `BakeFailed`, `BakeCancelled`, `BakeSaved` and `SaveFailed` are events to observe.
 //!
 //! # What a bake changes
 //!

@@ -5,8 +5,8 @@ pub use crate::RadiosityPlugins;
 pub use crate::bake::{AngularDiameter, BakeId, BakeOnLoad, Baked, NotBaked};
 #[cfg(feature = "render")]
 pub use crate::bake::{
-    BakeCancelled, BakeDone, BakeFailed, BakeProgress, BakeSettings, CancelBake, Quality, RemoveBake, Resolution,
-    StartBake, UvMode,
+    BakeCancelled, BakeDone, BakeFailed, BakeProgress, BakeSettings, BakeStarted, CancelBake, Quality, RemoveBake,
+    Resolution, StartBake, UvMode,
 };
 #[cfg(feature = "render")]
 pub use crate::baked::{BakeSaved, BakedScene, BakedSceneRoot, SaveBake, SaveFailed};

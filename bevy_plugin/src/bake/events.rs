@@ -13,10 +13,12 @@
 //!     .add_observer(|failed: On<BakeFailed>| error!("{}", failed.error));
 //! ```
 
+use std::sync::Arc;
+
 use bevy::prelude::*;
 use radiosity::bake::{BakeError, Report};
 
-use super::BakeSettings;
+use super::{BakeSettings, Collected};
 
 /// Bakes everything that is `Baked`, as soon as it is loaded. A bake that is under way is cancelled.
 ///
@@ -34,6 +36,15 @@ pub struct CancelBake;
 /// Takes the finished bake off: meshes, lights and ambient light are as they were before.
 #[derive(Event, Reflect, Clone, Copy, Debug, Default)]
 pub struct RemoveBake;
+
+/// Everything is loaded and collected, and the threads begin to bake.
+#[derive(Event, Reflect, Clone, Debug)]
+#[reflect(from_reflect = false)]
+pub struct BakeStarted {
+    /// What is baked, and the entities that it comes from.
+    #[reflect(ignore)]
+    pub collected: Arc<Collected>,
+}
 
 /// What a running bake is doing; sent in every frame in which that changed.
 #[derive(Event, Reflect, Clone, Copy, Debug, PartialEq)]

@@ -11,8 +11,8 @@ use radiosity::bake::{Bake, BakeError, BakeSettings as CoreBakeSettings};
 use super::loading::still_loading;
 use super::task::BakeTask;
 use super::{
-    BakeCancelled, BakeDone, BakeFailed, BakeOnLoad, BakeProgress, BakeSettings, CancelBake, Collected, RemoveBake,
-    StartBake, apply_bake, collect_unlit, remove_bake,
+    BakeCancelled, BakeDone, BakeFailed, BakeOnLoad, BakeProgress, BakeSettings, BakeStarted, CancelBake, Collected,
+    RemoveBake, StartBake, apply_bake, collect_unlit, remove_bake,
 };
 use crate::lightmap_guard::LightmapSystems;
 
@@ -117,7 +117,10 @@ fn start_bake(world: &mut World) {
         warn!("{warning}");
     }
     match BakeTask::start(collected.clone(), CoreBakeSettings::from(&settings)) {
-        Ok(task) => world.insert_resource(BakeState::Running { task, collected, settings }),
+        Ok(task) => {
+            world.insert_resource(BakeState::Running { task, collected: collected.clone(), settings });
+            world.trigger(BakeStarted { collected });
+        }
         Err(error) => world.trigger(BakeFailed { error }),
     }
 }
