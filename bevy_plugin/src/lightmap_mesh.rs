@@ -6,10 +6,11 @@ use radiosity::lightmap::LightmapUv;
 
 /// The mesh over the vertices of `uv`, with those coordinates as `UV_1`.
 ///
-/// None where the mesh has them already, or where its vertices live on the GPU only.
+/// It has `UV_0` too. None where the mesh has all that already, or where its vertices live on the GPU only.
 pub(crate) fn with_lightmap_uv(mesh: &Mesh, uv: &LightmapUv) -> Option<Mesh> {
     let uv_1: Vec<[f32; 2]> = uv.uv_1.iter().map(|uv| uv.to_array()).collect();
-    if has_same_vertices(mesh, uv) && has_uv_1(mesh, &uv_1) {
+    let has_uv_0 = mesh.try_contains_attribute(Mesh::ATTRIBUTE_UV_0).ok()?;
+    if has_uv_0 && has_same_vertices(mesh, uv) && has_uv_1(mesh, &uv_1) {
         return None;
     }
     let mut split = Mesh::new(PrimitiveTopology::TriangleList, mesh.asset_usage);
@@ -19,6 +20,10 @@ pub(crate) fn with_lightmap_uv(mesh: &Mesh, uv: &LightmapUv) -> Option<Mesh> {
     // Bevy duplicates vertices in the order of the indices.
     split.insert_indices(Indices::U32(uv.sources.clone()));
     split.duplicate_vertices();
+    if !has_uv_0 {
+        // The shader of Bevy 0.19.1 does not compile for a mesh with `UV_1` alone.
+        split.insert_attribute(Mesh::ATTRIBUTE_UV_0, uv_1.clone());
+    }
     split.insert_attribute(Mesh::ATTRIBUTE_UV_1, uv_1);
     split.insert_indices(indices(uv));
     split.enable_raytracing = mesh.enable_raytracing;
@@ -58,5 +63,33 @@ fn indices(uv: &LightmapUv) -> Indices {
         Indices::U16(indices.map(|&index| index as u16).collect())
     } else {
         Indices::U32(indices.copied().collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy::asset::RenderAssetUsages;
+    use radiosity::lightmap::UvOrigin;
+
+    use super::*;
+
+    /// Bevy 0.19.1 does not draw a mesh with `UV_1` and without `UV_0`.
+    #[test]
+    fn every_lightmap_mesh_has_uv_0() {
+        let corners = [Vec2::ZERO, Vec2::X, Vec2::Y];
+        let uv = LightmapUv {
+            origin: UvOrigin::Kept,
+            sources: vec![0, 1, 2],
+            uv_1: corners.to_vec(),
+            triangles: vec![[0, 1, 2]],
+        };
+        let bare = Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::default())
+            .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, corners.map(|corner| corner.extend(0.0)).to_vec());
+        let with_uv_1 = bare.clone().with_inserted_attribute(Mesh::ATTRIBUTE_UV_1, corners.to_vec());
+        for mesh in [bare, with_uv_1] {
+            let lightmap_mesh = with_lightmap_uv(&mesh, &uv).expect("something is missing");
+            assert!(lightmap_mesh.contains_attribute(Mesh::ATTRIBUTE_UV_0));
+            assert!(with_lightmap_uv(&lightmap_mesh, &uv).is_none(), "nothing is missing any more");
+        }
     }
 }
