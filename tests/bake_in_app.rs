@@ -69,7 +69,9 @@ fn state(app: &mut App) -> State {
     let world = app.world_mut();
     let lightmap = |map: &Lightmap| (map.image.id(), map.uv_rect, map.bicubic_sampling);
     let mut meshes = world.query::<(Entity, &Mesh3d, Option<&Lightmap>)>();
-    let meshes = meshes.iter(world).map(|(entity, mesh, map)| (entity, mesh.0.id(), map.map(lightmap))).collect();
+    let meshes = meshes.iter(world).map(|(entity, mesh, map)| (entity, mesh.0.id(), map.map(lightmap)));
+    let mut meshes: Vec<_> = meshes.collect();
+    meshes.sort_by_key(|mesh| mesh.0);
     let mut lights =
         world.query::<(Entity, Option<&PointLight>, Option<&SpotLight>, Option<&DirectionalLight>, &Visibility)>();
     let flags = lights.iter(world).map(|(entity, point, spot, sun, &visibility)| {
@@ -78,7 +80,8 @@ fn state(app: &mut App) -> State {
         let sun = sun.map(|light| light.affects_lightmapped_mesh_diffuse);
         (entity, point.or(spot).or(sun), visibility)
     });
-    let lights = flags.collect();
+    let mut lights: Vec<_> = flags.collect();
+    lights.sort_by_key(|light| light.0);
     let mut cameras = world.query::<&AmbientLight>();
     let mut ambient: Vec<_> = cameras.iter(world).map(|light| light.affects_lightmapped_meshes).collect();
     ambient.push(world.resource::<GlobalAmbientLight>().affects_lightmapped_meshes);
