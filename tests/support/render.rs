@@ -17,6 +17,7 @@ use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
 use bevy::render::render_resource::{TextureFormat, TextureUsages};
 use bevy::render::settings::{Backends, WgpuSettings};
 use bevy::window::ExitCondition;
+use bevy::winit::WinitPlugin;
 
 /// Pixels in a row and in a column of what a [`Studio`] renders.
 const SIDE: u32 = 64;
@@ -107,6 +108,8 @@ fn plugins(backends: Option<Backends>) -> PluginGroupBuilder {
         .set(WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() })
         .set(RenderPlugin { render_creation, synchronous_pipeline_compilation: true, ..default() })
         .disable::<PipelinedRenderingPlugin>()
+        // It wants a window and the main thread.
+        .disable::<WinitPlugin>()
         // There is one log for a process, and one process runs many tests.
         .disable::<LogPlugin>()
 }

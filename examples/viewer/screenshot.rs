@@ -1,0 +1,83 @@
+//! A picture of a view without a window.
+
+use std::error::Error;
+use std::path::Path;
+
+use bevy::app::{PluginGroupBuilder, ScheduleRunnerPlugin};
+use bevy::camera::RenderTarget;
+use bevy::prelude::*;
+use bevy::render::RenderPlugin;
+use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
+use bevy::render::render_resource::TextureFormat;
+use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
+use bevy::window::ExitCondition;
+use bevy::winit::WinitPlugin;
+use bevy_radiosity::bake::AppliedBake;
+
+use crate::args::Args;
+use crate::camera::Orbit;
+
+const SIZE: [u32; 2] = [640, 480];
+/// After which the bake is seen.
+const FRAMES: usize = 8;
+
+/// The default plugins for an app that runs as fast as it can and draws into an image.
+pub fn without_window(defaults: PluginGroupBuilder) -> PluginGroupBuilder {
+    defaults
+        .set(WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() })
+        .set(RenderPlugin { synchronous_pipeline_compilation: true, ..default() })
+        .disable::<PipelinedRenderingPlugin>()
+        .disable::<WinitPlugin>()
+        .add(ScheduleRunnerPlugin::default())
+}
+
+/// Waits for the bake, takes the picture and ends the app.
+pub fn plugin(app: &mut App) {
+    app.add_systems(PostStartup, draw_into_image)
+        .add_systems(Update, take.run_if(resource_exists::<AppliedBake>))
+        .add_observer(save);
+}
+
+#[derive(Resource)]
+struct Picture(Handle<Image>);
+
+/// The camera rests until there is something to see.
+fn draw_into_image(
+    mut commands: Commands,
+    camera: Single<(Entity, &mut Camera), With<Orbit>>,
+    mut images: ResMut<Assets<Image>>,
+) {
+    let (entity, mut camera) = camera.into_inner();
+    camera.is_active = false;
+    let picture = images.add(Image::new_target_texture(SIZE[0], SIZE[1], TextureFormat::Rgba8UnormSrgb, None));
+    commands.entity(entity).insert(RenderTarget::Image(picture.clone().into()));
+    commands.insert_resource(Picture(picture));
+}
+
+fn take(
+    mut commands: Commands,
+    mut camera: Single<&mut Camera, With<Orbit>>,
+    picture: Res<Picture>,
+    mut frame: Local<usize>,
+) {
+    camera.is_active = true;
+    *frame += 1;
+    if *frame == FRAMES {
+        commands.spawn(Screenshot::image(picture.0.clone()));
+    }
+}
+
+fn save(captured: On<ScreenshotCaptured>, args: Res<Args>, mut exit: MessageWriter<AppExit>) {
+    let path = args.screenshot.clone().unwrap_or_default();
+    exit.write(match write(&captured.image, &path) {
+        Ok(()) => AppExit::Success,
+        Err(error) => {
+            error!("{} cannot be written: {error}", path.display());
+            AppExit::error()
+        }
+    });
+}
+
+fn write(picture: &Image, path: &Path) -> Result<(), Box<dyn Error>> {
+    Ok(picture.clone().try_into_dynamic()?.to_rgb8().save(path)?)
+}

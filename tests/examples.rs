@@ -1,0 +1,85 @@
+//! The viewer, as built beside this test, takes pictures that show what they are asked for.
+
+use std::env;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus};
+
+use radiosity_tests::TestFolder;
+use radiosity_tests::render::Studio;
+
+/// Points of a picture of the Cornell box, on its red, green and back wall, as shares of its width and height.
+const RED: [f32; 2] = [0.18, 0.4];
+const GREEN: [f32; 2] = [0.82, 0.4];
+const BACK: [f32; 2] = [0.5, 0.3];
+
+/// 8-bit RGB, row by row.
+struct Picture {
+    width: usize,
+    height: usize,
+    pixels: Vec<[u8; 3]>,
+}
+
+impl Picture {
+    fn read(path: &Path) -> Self {
+        let decoder = png::Decoder::new(BufReader::new(File::open(path).expect("the picture is there")));
+        let mut reader = decoder.read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut bytes).unwrap();
+        assert_eq!((info.color_type, info.bit_depth), (png::ColorType::Rgb, png::BitDepth::Eight));
+        let pixels = bytes[..info.buffer_size()].as_chunks::<3>().0.to_vec();
+        Self { width: info.width as usize, height: info.height as usize, pixels }
+    }
+
+    fn at(&self, [x, y]: [f32; 2]) -> [u8; 3] {
+        let (column, row) = ((x * self.width as f32) as usize, (y * self.height as f32) as usize);
+        self.pixels[row * self.width + column]
+    }
+}
+
+/// What it writes to the terminal is shown where the test fails.
+fn viewer(arguments: &[&str]) -> ExitStatus {
+    let test = env::current_exe().expect("a test has a path");
+    let folder = test.parent().and_then(Path::parent).expect("below the folder of the profile");
+    let program = folder.join("examples").join(format!("viewer{}", env::consts::EXE_SUFFIX));
+    assert!(program.exists(), "{} is not built; run `cargo build --example viewer`", program.display());
+    let output = Command::new(program).args(arguments).output().expect("it can be started");
+    print!("{}", String::from_utf8_lossy(&output.stderr));
+    output.status
+}
+
+fn picture_of(view: &str, folder: &TestFolder) -> Picture {
+    let path: PathBuf = folder.path().join(view).with_extension("png");
+    let file = path.to_str().expect("the folder has a name in Unicode");
+    let status = viewer(&["--texels-per-meter", "32", "--view", view, "--screenshot", file]);
+    assert!(status.success(), "{status}");
+    Picture::read(&path)
+}
+
+#[test]
+fn viewer_shows_light_and_charts() {
+    let Some(_) = Studio::new() else { return };
+    let folder = TestFolder::new("viewer");
+    let lit = picture_of("lit", &folder);
+    let [[r, g, _], [s, h, _], back] = [RED, GREEN, BACK].map(|point| lit.at(point));
+    assert!(r > 2 * g && h > s, "the walls are {:?}, {:?}", lit.at(RED), lit.at(GREEN));
+    assert!(back.iter().all(|channel| (60..=250).contains(channel)), "the back wall is {back:?}");
+
+    let charts = picture_of("charts", &folder);
+    let [red, green, back] = [RED, GREEN, BACK].map(|point| charts.at(point));
+    assert!(red != green && green != back && back != red, "walls of one color: {red:?} {green:?} {back:?}");
+
+    let missing = folder.path().join("missing.glb");
+    let picture = folder.path().join("missing.png");
+    let status = viewer(&[missing.to_str().unwrap(), "--screenshot", picture.to_str().unwrap()]);
+    assert_eq!(status.code(), Some(1), "there is nothing to bake");
+    assert!(!picture.exists());
+}
+
+#[test]
+fn viewer_tells_wrong_arguments() {
+    for wrong in [&["--no-such-option"][..], &["--view", "none"], &["--texels-per-meter", "-1"], &["--screenshot"]] {
+        assert_eq!(viewer(wrong).code(), Some(2), "{wrong:?}");
+    }
+}
