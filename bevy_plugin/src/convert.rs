@@ -80,7 +80,7 @@ fn vec4s(mesh: &Mesh, attribute: MeshVertexAttribute) -> Vec<Vec4> {
     }
 }
 
-/// A picture as the core has it: 8-bit formats as they are, others as floats.
+/// A picture as the core has it: 8-bit formats as they are, 16-bit ones rounded to 8 bits, others as floats.
 ///
 /// # Errors
 ///
@@ -102,9 +102,9 @@ pub fn texture(name: &str, image: &Image) -> Result<Texture, String> {
         TextureFormat::Rgba8Unorm => Texels::Linear8(eight_bits()),
         TextureFormat::Bgra8UnormSrgb => Texels::Srgb8(swapped()),
         TextureFormat::Bgra8Unorm => Texels::Linear8(swapped()),
-        _ => Texels::Linear32(floats(image).ok_or_else(|| {
+        _ => other_texels(image).ok_or_else(|| {
             format!("has the format {format:?}, which cannot be read on the CPU; convert it to PNG or JPEG")
-        })?),
+        })?,
     };
     let complete = match &texels {
         Texels::Srgb8(list) | Texels::Linear8(list) => list.len() == count,
@@ -117,10 +117,24 @@ pub fn texture(name: &str, image: &Image) -> Result<Texture, String> {
     Ok(Texture { name: name.to_owned(), width: size.width, height: size.height, texels, wrap_u, wrap_v })
 }
 
-/// Linear texels of any format that Bevy can read.
-fn floats(image: &Image) -> Option<Vec<[f32; 4]>> {
-    let texels = (0..image.height()).flat_map(|y| (0..image.width()).map(move |x| (x, y)));
-    texels.map(|(x, y)| Some(image.get_color_at(x, y).ok()?.to_linear().to_f32_array())).collect()
+/// Texels of any format that Bevy can read.
+///
+/// 16 bits for a share in `[0, 1]` are more than a bake can tell apart. They take a quarter of the memory in 8 bits, of
+/// which sRGB leaves enough to the dark.
+fn other_texels(image: &Image) -> Option<Texels> {
+    let places = (0..image.height()).flat_map(|y| (0..image.width()).map(move |x| (x, y)));
+    let colors = places.map(|(x, y)| image.get_color_at(x, y).ok());
+    match image.texture_descriptor.format {
+        TextureFormat::R16Unorm
+        | TextureFormat::R16Uint
+        | TextureFormat::Rg16Unorm
+        | TextureFormat::Rg16Uint
+        | TextureFormat::Rgba16Unorm
+        | TextureFormat::Rgba16Uint => {
+            colors.map(|color| Some(color?.to_srgba().to_u8_array())).collect::<Option<_>>().map(Texels::Srgb8)
+        }
+        _ => colors.map(|color| Some(color?.to_linear().to_f32_array())).collect::<Option<_>>().map(Texels::Linear32),
+    }
 }
 
 fn wrap(sampler: &ImageSampler) -> (Wrap, Wrap) {
@@ -269,7 +283,7 @@ pub fn spot_light(light: &SpotLight, transform: &GlobalTransform) -> LightSource
             range: light.range,
             radius: light.radius,
         },
-        direction: transform.forward().into(),
+        direction: forward(transform),
         inner_angle: light.inner_angle,
         outer_angle: light.outer_angle,
     })
@@ -278,7 +292,7 @@ pub fn spot_light(light: &SpotLight, transform: &GlobalTransform) -> LightSource
 /// A directional light that is seen under an angle in radians.
 pub fn directional_light(light: &DirectionalLight, transform: &GlobalTransform, angular_diameter: f32) -> LightSource {
     LightSource::Directional(light::DirectionalLight {
-        direction: transform.forward().into(),
+        direction: forward(transform),
         illuminance: rgb(light.color) * light.illuminance,
         angular_diameter,
     })
@@ -287,17 +301,45 @@ pub fn directional_light(light: &DirectionalLight, transform: &GlobalTransform, 
 /// A rectangular light, which shines towards its -Z; its lumens are spread over its area as it is scaled.
 pub fn rect_light(light: &RectLight, transform: &GlobalTransform) -> LightSource {
     let [x, y, _] = transform.affine().matrix3.to_cols_array_2d().map(Vec3::from);
-    let (width, height) = (light.width * x.length(), light.height * y.length());
-    let half_width = Vec3::from(transform.right()) * width * 0.5;
-    let half_height = Vec3::from(transform.up()) * height * 0.5;
+    let (half_width, half_height) = (x * light.width * 0.5, y * light.height * 0.5);
+    let area = 4.0 * half_width.length() * half_height.length();
     LightSource::Rect(light::RectLight {
         center: transform.translation(),
         // Right x up points back, and the light leaves forward.
         half_width: half_height,
         half_height: half_width,
-        radiance: rgb(light.color) * light.intensity / (width * height * PI),
+        radiance: rgb(light.color) * light.intensity / (area * PI),
         range: light.range,
     })
+}
+
+/// Whether a light has a place, a direction, a size and a brightness that a bake can reckon with.
+///
+/// A direction is lost below a scale of 0; a rectangle without area has no radiance.
+pub fn is_usable(source: &LightSource) -> bool {
+    let is_point = |point: &light::PointLight| {
+        point.position.is_finite() && point.intensity.is_finite() && point.range > 0.0 && point.radius.is_finite()
+    };
+    match source {
+        LightSource::Point(point) => is_point(point),
+        LightSource::Spot(spot) => {
+            let angles = [spot.inner_angle, spot.outer_angle];
+            is_point(&spot.point) && spot.direction.is_finite() && angles.iter().all(|angle| angle.is_finite())
+        }
+        LightSource::Directional(sun) => {
+            sun.direction.is_finite() && sun.illuminance.is_finite() && sun.angular_diameter.is_finite()
+        }
+        LightSource::Rect(rect) => {
+            let normal = rect.half_width.cross(rect.half_height);
+            let has_area = normal.is_finite() && normal != Vec3::ZERO;
+            has_area && rect.center.is_finite() && rect.radiance.is_finite() && rect.range > 0.0
+        }
+    }
+}
+
+/// Where an entity looks, with length 1; not finite below a scale of 0, where Bevy's own way panics in development.
+fn forward(transform: &GlobalTransform) -> Vec3 {
+    -Vec3::from(transform.affine().matrix3.z_axis).normalize()
 }
 
 fn candela(lumens: f32) -> f32 {
@@ -376,6 +418,13 @@ mod tests {
             panic!("floats became bytes")
         };
         assert_eq!(texels, [[7.5, 0.5, 0.25, 1.0]; 2]);
+        // Bevy takes 16 bits for linear. The darkest of them is darker than the first step of 8 linear bits.
+        for linear in [0.002_f32, 0.1, 0.5, 1.0] {
+            let bits = ((linear * 65535.0) as u16).to_le_bytes();
+            let texture = texture("", &image(TextureFormat::Rgba16Unorm, &bits.repeat(4))).unwrap();
+            let sampled = texture.sample(Vec2::splat(0.5)).x;
+            assert!((sampled - linear).abs() < 0.02 * linear.max(0.01), "{sampled} for {linear}");
+        }
         let error = texture("", &image(TextureFormat::Rgb9e5Ufloat, &[0; 4])).unwrap_err();
         assert!(error.contains("Rgb9e5Ufloat") && error.contains("PNG"), "{error}");
         let mut gone = image(TextureFormat::Rgba8Unorm, &[0; 4]);

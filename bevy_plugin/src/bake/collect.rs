@@ -225,8 +225,10 @@ impl<'w> Collector<'w> {
         ];
         for source in sources.into_iter().flatten() {
             let name = name_of(self.world, entity);
-            if !transform.affine().is_finite() {
-                self.note("is a light that is left out, because its transform is not finite", name);
+            if !convert::is_usable(&source) {
+                let note = "is a light that is left out, because its place, direction, size or brightness is not a \
+                            finite number; correct it, and the scale above it, which must not be 0";
+                self.note(note, name);
                 continue;
             }
             self.collected.scene.lights.push(Light { name, source });

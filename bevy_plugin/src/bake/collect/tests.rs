@@ -125,3 +125,25 @@ fn lights_have_their_angles_and_warn_of_their_range() {
     assert_eq!((collected.scene.lights.len(), collected.lights.len()), (5, 5));
     assert!(collected.warnings.len() == 1 && collected.warnings[0].starts_with("\"short\" is a light whose range"));
 }
+
+/// One such light would make every texel NaN.
+#[test]
+fn lights_that_are_not_finite_are_left_out_and_named() {
+    let mut app = app();
+    let flat = Transform::from_scale(Vec3::ZERO);
+    app.world_mut().spawn((Baked::default(), Transform::default())).with_children(|root| {
+        root.spawn((Name::new("crushed spot"), SpotLight::default(), flat));
+        root.spawn((Name::new("crushed sun"), DirectionalLight::default(), flat));
+        root.spawn((Name::new("crushed panel"), RectLight::default(), flat));
+        root.spawn((Name::new("empty panel"), RectLight { width: 0.0, ..default() }));
+        root.spawn((Name::new("bright"), PointLight { intensity: f32::INFINITY, ..default() }));
+        root.spawn((Name::new("lost"), PointLight::default(), Transform::from_xyz(f32::NAN, 0.0, 0.0)));
+        root.spawn((Name::new("small"), PointLight::default(), flat));
+        root.spawn((Name::new("panel"), RectLight::default()));
+    });
+    let collected = collected(&mut app);
+    let names: Vec<&str> = collected.scene.lights.iter().map(|light| light.name.as_str()).collect();
+    assert_eq!((names, collected.lights.len()), (vec!["small", "panel"], 2));
+    let told = &collected.warnings[0];
+    assert!(told.starts_with("\"crushed spot\"") && told.contains("5 more") && told.contains("scale"), "{told}");
+}
