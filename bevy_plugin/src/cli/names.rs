@@ -2,24 +2,30 @@
 
 use std::collections::HashSet;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::document::Document;
 
 /// Names may have this many bytes; Blender cuts longer ones off.
 const MAX_BYTES: usize = 60;
 
-/// Gives every node with a mesh a unique name: its own, cut to 60 bytes, else `nodeN`; duplicates get `-N`.
+/// Gives every node with a mesh a name that no other such node has: its own, cut to 60 bytes, else `nodeN`; duplicates
+/// get `-N`.
+///
+/// The first node with a name keeps it, whatever stands before it and is called anew. Nodes without a mesh keep theirs.
 pub(super) fn make_unique(document: &mut Document) {
-    let has_mesh = |node: &serde_json::Value| node.get("mesh").is_some();
-    let mut taken: HashSet<String> = document
-        .list("nodes")
-        .iter()
-        .filter(|node| !has_mesh(node))
-        .filter_map(|node| node["name"].as_str().map(str::to_owned))
-        .collect();
-    for (index, node) in document.list_mut("nodes").iter_mut().enumerate() {
-        if !has_mesh(node) {
+    let nodes = document.list_mut("nodes");
+    let mut taken = HashSet::new();
+    let keeps = |node: &Value| {
+        let fits = |name: &&str| !name.is_empty() && name.len() <= MAX_BYTES;
+        let name = node["name"].as_str().filter(|_| has_mesh(node)).filter(fits);
+        name.is_some_and(|name| taken.insert(name.to_owned()))
+    };
+    let kept: Vec<bool> = nodes.iter().map(keeps).collect();
+    let names_without_mesh = nodes.iter().filter(|node| !has_mesh(node)).filter_map(|node| node["name"].as_str());
+    taken.extend(names_without_mesh.map(str::to_owned));
+    for (index, node) in nodes.iter_mut().enumerate() {
+        if kept[index] || !has_mesh(node) {
             continue;
         }
         let wanted = match node["name"].as_str() {
@@ -30,6 +36,10 @@ pub(super) fn make_unique(document: &mut Document) {
         node["name"] = json!(name);
         taken.insert(name);
     }
+}
+
+fn has_mesh(node: &Value) -> bool {
+    node.get("mesh").is_some()
 }
 
 /// The name, or with the smallest number behind it that makes it unused.
@@ -62,9 +72,11 @@ mod tests {
         let mut document = Document { json: json!({ "nodes": nodes }), buffer: Vec::new() };
         make_unique(&mut document);
         let names: Vec<&str> = document.list("nodes").iter().map(|node| node["name"].as_str().unwrap()).collect();
-        assert_eq!(names[..5], ["Wall", "Wall-1", "node2", "Lamp", "Lamp-1"]);
-        assert_eq!((names[5], names[7]), ("ä".repeat(30).as_str(), "Wall-1-1"));
-        assert_eq!(names.iter().collect::<HashSet<_>>().len(), names.len());
+        // What has a name of its own keeps it, though an earlier duplicate would get it.
+        assert_eq!(names[..5], ["Wall", "Wall-2", "node2", "Lamp", "Lamp"]);
+        assert_eq!((names[5], names[7]), ("ä".repeat(30).as_str(), "Wall-1"));
+        let with_mesh = [&names[..3], &names[4..]].concat();
+        assert_eq!(with_mesh.iter().collect::<HashSet<_>>().len(), with_mesh.len());
         assert!(names.iter().all(|name| name.len() <= MAX_BYTES));
     }
 }
