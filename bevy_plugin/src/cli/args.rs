@@ -22,7 +22,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", value_parser = positive, conflicts_with = "resolution")]
     pub texels_per_meter: Option<f32>,
 
-    /// Side of one single image in texels, a multiple of 4
+    /// Side of one single image in texels, a multiple of 4 from 16 to 4096
     #[arg(long, value_name = "N", value_parser = image_side)]
     pub resolution: Option<u32>,
 
@@ -35,7 +35,7 @@ pub(super) struct Args {
     pub quality: QualityArg,
 
     /// Worker threads, 0 for one on each core; the result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", value_parser = threads, default_value_t = 0)]
     pub threads: usize,
 
     /// What the bake may use, as 2G or 512M; by default three quarters of what the machine has
@@ -136,8 +136,15 @@ fn finite(text: &str) -> Result<f32, String> {
 
 fn image_side(text: &str) -> Result<u32, String> {
     match text.parse() {
-        Ok(side @ 4..=4096) if side % 4 == 0 => Ok(side),
-        _ => Err("it must be a multiple of 4 from 4 to 4096".into()),
+        Ok(side @ 16..=4096) if side % 4 == 0 => Ok(side),
+        _ => Err("it must be a multiple of 4 from 16 to 4096".into()),
+    }
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads @ 0..=256) => Ok(threads),
+        _ => Err("it must be a number from 0 to 256".into()),
     }
 }
 
@@ -183,7 +190,10 @@ mod tests {
         assert_eq!(resolution(&[]).unwrap(), Resolution::TexelsPerMeter(512.0));
         assert_eq!(resolution(&["--texels-per-meter", "8"]).unwrap(), Resolution::TexelsPerMeter(8.0));
         assert_eq!(resolution(&["--resolution", "512"]).unwrap(), Resolution::SingleImage(512));
-        assert!(resolution(&["--resolution", "510"]).is_err());
+        for wrong in ["0", "12", "510", "4100", "-16"] {
+            assert!(resolution(&["--resolution", wrong]).is_err(), "{wrong}");
+        }
+        assert!(resolution(&["--threads", "256"]).is_ok() && resolution(&["--threads", "257"]).is_err());
         assert!(resolution(&["--resolution", "512", "--texels-per-meter", "8"]).is_err());
     }
 }
