@@ -140,7 +140,7 @@ impl Elements {
     }
 
     /// Smallest and largest value of each component.
-    fn bounds(&self) -> (Vec<f64>, Vec<f64>) {
+    pub fn bounds(&self) -> (Vec<f64>, Vec<f64>) {
         let (width, component) = (self.width(), self.component());
         let mut bounds = (vec![f64::INFINITY; width], vec![f64::NEG_INFINITY; width]);
         for element in self.bytes.chunks_exact(self.size) {

@@ -127,8 +127,11 @@ fn set_coordinates(document: &mut Document, primitive: &mut Value, coordinates: 
     let attributes = &mut primitive["attributes"];
     attributes["TEXCOORD_1"] = json!(accessor);
     if attributes["TEXCOORD_0"].is_null() {
-        // glTF allows a second set only beside a first.
-        attributes["TEXCOORD_0"] = json!(accessor);
+        // glTF allows a second set only beside a first, and Bevy's shader does not compile without one. Where a texture
+        // is looked up by it, a bake and Bevy so far took the factor alone; one texel all over is nearer to that than
+        // a picture spread over the charts of the lightmap would be.
+        let zeros = Elements::vec2(&vec![[0.0; 2]; coordinates.len()]).write(document, true);
+        attributes["TEXCOORD_0"] = json!(zeros);
     }
 }
 
@@ -201,5 +204,7 @@ mod tests {
         }
         assert_eq!(old, new);
         assert!(after.buffer.starts_with(&before.buffer));
+        // The first set that glTF wants beside the second is none of its own.
+        assert_eq!(read(&after, "/attributes/TEXCOORD_0").bounds(), (vec![0.0; 2], vec![0.0; 2]));
     }
 }
