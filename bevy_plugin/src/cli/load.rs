@@ -56,8 +56,12 @@ pub(super) fn load(document: &Document) -> Result<Loaded, CliError> {
     let light_node = |&entity: &Entity| world.get::<GltfLightSource>(entity).map(|light| light.node);
     let light_nodes = collected.lights.iter().filter_map(light_node).collect();
     warnings.extend(collected.warnings.iter().cloned());
+    let camera = camera(app.world_mut());
+    if camera.is_none() && app.world_mut().query::<&Camera>().iter(app.world()).next().is_some() {
+        warnings.push("no camera of the scene is a perspective one, so the preview is an overview; add one".into());
+    }
     let collected = Collected { warnings, ..collected };
-    Ok(Loaded { collected, sources, light_nodes, camera: camera(app.world_mut()) })
+    Ok(Loaded { collected, sources, light_nodes, camera })
 }
 
 /// An app in which the scene of the document stands.
@@ -70,7 +74,8 @@ fn load_app(document: &Document) -> Result<App, CliError> {
         match (server.load_state(&gltf), server.is_loaded_with_dependencies(&gltf)) {
             (LoadState::Failed(error), _) => {
                 return Err(CliError::new(format!(
-                    "the scene cannot be loaded ({error}); see what a glTF validator says about it, or export it again"
+                    "the scene cannot be loaded ({}); see what a glTF validator says about it, or export it again",
+                    first_line(&error)
                 )));
             }
             (_, true) => break,
@@ -88,7 +93,7 @@ fn load_app(document: &Document) -> Result<App, CliError> {
         let spawned = scenes.get(&scene).map(|scene| scene.write_to_world_with(world, &mut default(), &registry));
         match spawned {
             Some(Ok(_)) => Ok(()),
-            Some(Err(error)) => Err(CliError::new(format!("the scene cannot be spawned: {error}"))),
+            Some(Err(error)) => Err(CliError::new(format!("the scene cannot be spawned: {}", first_line(&error)))),
             None => Err(CliError::new("the file has no scene; export one with meshes")),
         }
     })?;
@@ -100,6 +105,11 @@ fn load_app(document: &Document) -> Result<App, CliError> {
     // Transforms are propagated by one more turn.
     app.update();
     Ok(app)
+}
+
+/// What an error says before its backtrace.
+fn first_line(error: &impl ToString) -> String {
+    error.to_string().lines().next().unwrap_or_default().to_owned()
 }
 
 fn headless_app(glb: Vec<u8>) -> App {
@@ -182,6 +192,27 @@ mod tests {
             }
         }
         assert_eq!(loaded.collected.scene.lights.len(), 3);
+    }
+
+    /// An orthographic camera gives no preview of its own, which is said; a perspective one does.
+    #[test]
+    fn cameras_without_perspective_are_told() {
+        let cameras = json!([{ "type": "orthographic",
+            "orthographic": { "xmag": 1.0, "ymag": 1.0, "znear": 0.1, "zfar": 10.0 } },
+            { "type": "perspective", "perspective": { "yfov": 1.0, "znear": 0.1 } }]);
+        for (nodes, overviews) in [(json!([{ "camera": 0 }]), 1), (json!([{ "camera": 0 }, { "camera": 1 }]), 0)] {
+            let indices: Vec<usize> = (0..nodes.as_array().map_or(0, Vec::len)).collect();
+            let json = json!({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": indices }],
+                "nodes": nodes, "cameras": cameras });
+            let loaded = load(&Document { json, buffer: Vec::new() }).unwrap();
+            let told = loaded.collected.warnings.iter().filter(|warning| warning.contains("overview")).count();
+            assert_eq!((told, loaded.camera.is_none()), (overviews, overviews == 1));
+        }
+    }
+
+    #[test]
+    fn errors_are_told_without_their_backtrace() {
+        assert_eq!(first_line(&"it is broken\n   0: core::panic"), "it is broken");
     }
 
     /// Integers for positions, which the loader does not take, are the same places as floats.
