@@ -168,6 +168,27 @@ fn a_failed_and_a_cancelled_bake_leave_the_last_good_one() {
     assert!(contents(&out) == before);
 }
 
+/// The folder of the scene can be the one for the bake, unless the scene is called as the baked one is.
+#[test]
+fn the_source_is_never_overwritten() {
+    let folder = TestFolder::new("source");
+    let room = Glb::room().bytes();
+    let scene = folder.write("scene.glb", &room);
+    let error = bake(&scene, &folder.path().join("."), &[]).expect_err("it would overwrite its source");
+    assert!(error.exit_code() == ExitCode::from(1) && error.to_string().contains("--out"), "{error}");
+    assert!(contents(folder.path()) == BTreeMap::from([("scene.glb".to_owned(), room)]));
+}
+
+/// What the process has before the bake begins counts too.
+#[test]
+fn too_little_memory_is_named() {
+    let folder = TestFolder::new("memory");
+    let scene = folder.write("room.glb", &Glb::room().bytes());
+    let error = bake(&scene, &folder.path().join("out"), &["--memory", "1M"]).expect_err("it has more already");
+    assert!(error.to_string().contains("1 MiB") && error.to_string().contains("--memory"), "{error}");
+    assert!(!folder.path().join("out").exists());
+}
+
 #[test]
 fn a_truncated_file_is_named() {
     let room = Glb::room().bytes();
@@ -213,6 +234,18 @@ fn a_scene_without_lights_is_named() {
     assert!(text.contains("no light"), "{text}");
 }
 
+/// Such an index makes the loader panic.
+#[test]
+fn an_index_beyond_the_vertices_is_named() {
+    let mut room = Glb::room();
+    let (positions, indices) = (room.positions(&[[0.0; 3]; 3]), room.indices(&[0, 1, 3]));
+    room.meshes.push(format!(
+        r#"{{"name":"Torn","primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}}}]}}"#
+    ));
+    let text = error_of("index", "room.glb", &room.bytes());
+    assert!(text.contains("Torn") && text.contains("vertex 3"), "{text}");
+}
+
 #[test]
 fn draco_is_named() {
     let text = Glb::room().json(r#""extensionsRequired":["KHR_draco_mesh_compression"]"#);
@@ -256,7 +289,13 @@ fn a_webp_texture_is_a_warning() {
 
 #[test]
 fn wrong_arguments_are_usage_errors() {
-    for args in [&["bake", "--resolution", "3"][..], &["bake", "--quality", "best"], &["bake", "a.glb", "b.glb"]] {
+    for args in [
+        &["bake", "--resolution", "3"][..],
+        &["bake", "--resolution", "12"],
+        &["bake", "--threads", "257"],
+        &["bake", "--quality", "best"],
+        &["bake", "a.glb", "b.glb"],
+    ] {
         let error = try_run(args.iter().map(OsString::from), &AtomicBool::new(false)).expect_err("it makes no sense");
         assert_eq!(error.exit_code(), ExitCode::from(2), "{args:?}");
     }

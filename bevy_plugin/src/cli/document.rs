@@ -8,7 +8,9 @@ use base64::engine::general_purpose::STANDARD;
 use percent_encoding::percent_decode_str;
 use serde_json::{Value, json};
 
+use super::accessor::{Elements, element_size};
 use super::error::CliError;
+use super::meshopt;
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: u32 = 0x4E4F_534A;
@@ -46,6 +48,7 @@ impl Document {
             return Err(CliError::new("not a glTF 2.0 file; export it as .glb or .gltf of version 2.0"));
         }
         let mut document = Self { json, buffer: Vec::new() };
+        meshopt::use_fallback(&mut document.json, binary.is_some())?;
         document.join_buffers(binary, folder)?;
         document.embed_images(folder)?;
         document.check_accessors()?;
@@ -114,11 +117,9 @@ impl Document {
         let mut offsets = Vec::new();
         for (index, buffer) in self.list("buffers").to_vec().iter().enumerate() {
             let length = buffer["byteLength"].as_u64().unwrap_or(0) as usize;
-            let is_fallback = buffer["extensions"]["EXT_meshopt_compression"]["fallback"] == json!(true);
             let data = match (buffer["uri"].as_str(), binary) {
                 (Some(uri), _) => resolve(uri, folder, "buffer")?,
                 (None, Some(binary)) if index == 0 => binary.to_vec(),
-                (None, _) if is_fallback => vec![0; length],
                 (None, _) => return Err(CliError::new(format!("truncated: it has no data for buffer {index}"))),
             };
             let Some(data) = data.get(..length) else {
@@ -135,9 +136,6 @@ impl Document {
         for (index, view) in self.list_mut("bufferViews").iter_mut().enumerate() {
             let damaged = || CliError::new(format!("damaged: buffer view {index} reaches beyond its buffer"));
             move_view(view, &offsets).ok_or_else(damaged)?;
-            if let Some(compressed) = view.pointer_mut("/extensions/EXT_meshopt_compression") {
-                move_view(compressed, &offsets).ok_or_else(damaged)?;
-            }
         }
         Ok(())
     }
@@ -169,7 +167,7 @@ impl Document {
             let Some(view_index) = accessor["bufferView"].as_u64() else { continue };
             let length = self.view(view_index as usize).ok_or_else(damaged)?.len() as u64;
             let stride = self.list("bufferViews")[view_index as usize]["byteStride"].as_u64();
-            let size = super::accessor::element_size(accessor).ok_or_else(damaged)? as u64;
+            let size = element_size(accessor).ok_or_else(damaged)? as u64;
             let count = accessor["count"].as_u64().unwrap_or(0);
             let last = count.saturating_sub(1).saturating_mul(stride.unwrap_or(size));
             let end = last.saturating_add(accessor["byteOffset"].as_u64().unwrap_or(0)).saturating_add(size);
@@ -180,31 +178,52 @@ impl Document {
         Ok(())
     }
 
-    /// Every primitive has positions, and indices that are such.
+    /// Every primitive has positions, as many of all else, and indices of these.
     fn check_primitives(&self) -> Result<(), CliError> {
         for (index, mesh) in self.list("meshes").iter().enumerate() {
-            let mut primitives = mesh["primitives"].as_array().into_iter().flatten();
-            if !primitives.all(|primitive| is_sound(self.list("accessors"), primitive)) {
+            for primitive in mesh["primitives"].as_array().into_iter().flatten() {
                 let name = mesh["name"].as_str().unwrap_or("without a name");
-                let text = format!("damaged: mesh {index} ({name}) has no positions or wrong indices; export it again");
-                return Err(CliError::new(text));
+                let damaged = |what| CliError::new(format!("damaged: mesh {index} ({name}) {what}; export it again"));
+                self.check_primitive(primitive).map_err(damaged)?;
             }
         }
         Ok(())
     }
-}
 
-/// Whether the accessors that a primitive refers to are there and of a kind that it can use.
-fn is_sound(accessors: &[Value], primitive: &Value) -> bool {
-    let accessor = |index: &Value| accessors.get(index.as_u64()? as usize);
-    let targets = primitive["targets"].as_array().into_iter().flatten();
-    let mut attributes = targets.chain([&primitive["attributes"]]).filter_map(Value::as_object).flatten();
-    let are_indices = |accessor: &Value| {
-        matches!(accessor["componentType"].as_u64(), Some(5121 | 5123 | 5125)) && accessor["type"] == json!("SCALAR")
-    };
-    accessor(&primitive["attributes"]["POSITION"]).is_some()
-        && attributes.all(|(_, index)| accessor(index).is_some())
-        && (primitive["indices"].is_null() || accessor(&primitive["indices"]).is_some_and(are_indices))
+    /// Says what is wrong with a primitive, as the end of a sentence about its mesh.
+    fn check_primitive(&self, primitive: &Value) -> Result<(), String> {
+        let accessor = |index: &Value| self.list("accessors").get(index.as_u64()? as usize);
+        let count = |accessor: &Value| accessor["count"].as_u64().unwrap_or(0);
+        let positions = accessor(&primitive["attributes"]["POSITION"]).ok_or("has no positions")?;
+        let vertices = count(positions);
+        let targets = primitive["targets"].as_array().into_iter().flatten();
+        for (name, index) in targets.chain([&primitive["attributes"]]).filter_map(Value::as_object).flatten() {
+            match accessor(index).map(count) {
+                Some(values) if values == vertices => {}
+                Some(values) => return Err(format!("has {vertices} positions and {values} values of {name}")),
+                None => return Err(format!("has no data for {name}")),
+            }
+        }
+        if primitive["indices"].is_null() {
+            return Ok(());
+        }
+        let are_indices = |accessor: &&Value| {
+            let component = accessor["componentType"].as_u64();
+            matches!(component, Some(5121 | 5123 | 5125)) && accessor["type"] == json!("SCALAR")
+        };
+        let indices = accessor(&primitive["indices"]).filter(are_indices).ok_or("has wrong indices")?;
+        if indices["bufferView"].is_null() && indices["sparse"].is_null() {
+            // They are all 0, or compressed.
+            return Ok(());
+        }
+        let elements = Elements::read(self, primitive["indices"].as_u64().unwrap_or(u64::MAX) as usize);
+        match elements.map_err(|_| "has indices that cannot be read")?.unsigned().into_iter().max() {
+            Some(last) if u64::from(last) >= vertices => {
+                Err(format!("has {vertices} vertices, and a triangle names vertex {last}, counted from 0"))
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// The JSON and the binary chunk of a `.glb` file.
@@ -331,6 +350,27 @@ mod tests {
             panic!("a mesh without positions was accepted")
         };
         assert!(text.contains("(Wall)"), "{text}");
+    }
+
+    /// Indices and attributes that fit no vertex are told before a loader trusts them.
+    #[test]
+    fn a_mesh_that_contradicts_itself_is_damage() {
+        let mesh = |indices: [u16; 3], normals: usize| {
+            let mut document = Document { json: json!({ "asset": { "version": "2.0" } }), buffer: Vec::new() };
+            let positions = Elements::vec3(&[[0.0; 3]; 3]).write(&mut document, true);
+            let normals = Elements::vec3(&vec![[0.0; 3]; normals]).write(&mut document, true);
+            let indices = Elements::indices(&indices.map(u32::from)).write(&mut document, false);
+            document.json["meshes"] = json!([{ "name": "Wall", "primitives": [
+                { "attributes": { "POSITION": positions, "NORMAL": normals }, "indices": indices }] }]);
+            Document::parse(&document.to_glb(), Path::new(""))
+        };
+        assert!(mesh([0, 1, 2], 3).is_ok());
+        for (document, reason) in
+            [(mesh([0, 1, 3], 3), "vertex 3"), (mesh([0, 1, 2], 2), "3 positions and 2 values of NORMAL")]
+        {
+            let Err(CliError::Failed(text)) = document else { panic!("{reason}") };
+            assert!(text.contains("mesh 0 (Wall)") && text.contains(reason), "{text}");
+        }
     }
 
     #[test]

@@ -16,17 +16,8 @@ const WHITE_PNG: &[u8] = &[
 ];
 
 /// Extensions without which the geometry cannot be read, and what to do about them.
-const UNREADABLE: [(&str, &str); 3] = [
-    ("KHR_draco_mesh_compression", "its meshes are compressed with Draco; export without compression"),
-    (
-        "EXT_meshopt_compression",
-        "its meshes are compressed with meshopt; decompress it, as with gltfpack -noq, or export again",
-    ),
-    (
-        "KHR_meshopt_compression",
-        "its meshes are compressed with meshopt; decompress it, as with gltfpack -noq, or export again",
-    ),
-];
+const UNREADABLE: [(&str, &str); 1] =
+    [("KHR_draco_mesh_compression", "its meshes are compressed with Draco; export without compression")];
 
 /// Required extensions that change nothing about a bake beyond what the loader reads.
 const HARMLESS: [&str; 6] = [

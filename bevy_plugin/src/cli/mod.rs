@@ -8,6 +8,8 @@ mod error;
 mod exr;
 mod load;
 mod loadable;
+mod memory;
+mod meshopt;
 mod names;
 mod output;
 mod preview;
@@ -18,6 +20,7 @@ mod scene_file;
 mod write;
 
 use std::ffi::OsString;
+use std::fs;
 use std::process::ExitCode;
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,7 +28,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use clap::Parser;
-use radiosity::bake::{Bake, BakeError, BakeSettings, bake};
+use radiosity::bake::{Bake, BakeSettings, bake};
 use radiosity::progress::Progress;
 use radiosity::scene::Scene;
 
@@ -33,6 +36,7 @@ pub use self::error::CliError;
 
 use self::args::Args;
 use self::document::Document;
+use self::memory::Budget;
 use self::output::Staging;
 use self::progress::Display;
 
@@ -48,14 +52,16 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     HANDLER.call_once(|| {
         let interrupt = || {
             if INTERRUPTED.swap(true, Ordering::Relaxed) {
-                // Asked twice, it does not wait for anything.
-                std::process::exit(130);
+                // Asked twice, it waits no longer than a file takes to write.
+                output::clean_up_and_exit();
             }
         };
         if let Err(error) = ctrlc::set_handler(interrupt) {
             eprintln!("warning: Ctrl-C will not clean up ({error})");
         }
     });
+    // An earlier run may have been cancelled.
+    INTERRUPTED.store(false, Ordering::Relaxed);
     match try_run(args, &INTERRUPTED) {
         Ok(summary) => {
             println!("{summary}");
@@ -90,6 +96,7 @@ pub fn try_run(args: impl IntoIterator<Item = OsString>, interrupted: &AtomicBoo
 /// The whole way, in its order.
 fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliError> {
     let start = Instant::now();
+    keep_source(args)?;
     let mut document = match &args.scene {
         Some(path) => Document::read(path)?,
         None => builtin::cornell_document(),
@@ -104,8 +111,11 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     for warning in &loaded.collected.warnings {
         eprintln!("warning: {warning}");
     }
-    let staging = Staging::new(&args.out)?;
-    let bake = bake_watched(&loaded.collected.scene, &settings, interrupted)?;
+    let staging = Staging::new(&args.out, interrupted)?;
+    let memory = Budget::new(settings.memory_bytes)?;
+    let settings = BakeSettings { memory_bytes: memory.left(), ..settings };
+    let mut bake = bake_watched(&loaded.collected.scene, &settings, &memory, interrupted)?;
+    bake.report.estimated_memory_bytes += memory.resident;
     for warning in &bake.report.warnings {
         eprintln!("warning: {warning}");
     }
@@ -113,8 +123,25 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     written.write(staging)
 }
 
+/// The scene that is read must not be the one that is written: the baked one is no substitute for it.
+fn keep_source(args: &Args) -> Result<(), CliError> {
+    let Some(scene) = &args.scene else { return Ok(()) };
+    match (fs::canonicalize(scene), fs::canonicalize(args.out.join("scene.glb"))) {
+        (Ok(read), Ok(written)) if read == written => Err(CliError::new(format!(
+            "{} would be overwritten by what is baked of it; choose another folder by --out",
+            scene.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
 /// Bakes on a thread of its own, shows how far it is, and stops when interrupted.
-fn bake_watched(scene: &Scene, settings: &BakeSettings, interrupted: &AtomicBool) -> Result<Bake, CliError> {
+fn bake_watched(
+    scene: &Scene,
+    settings: &BakeSettings,
+    memory: &Budget,
+    interrupted: &AtomicBool,
+) -> Result<Bake, CliError> {
     let progress = Progress::default();
     let mut display = Display::new();
     let result = thread::scope(|scope| {
@@ -133,7 +160,7 @@ fn bake_watched(scene: &Scene, settings: &BakeSettings, interrupted: &AtomicBool
         return Err(CliError::Cancelled);
     }
     match result {
-        Ok(result) => result.map_err(|error: BakeError| error.into()),
+        Ok(result) => result.map_err(|error| memory.add(error).into()),
         Err(_) => Err(CliError::new("the bake ended in an error of its own, which is told above; please report it")),
     }
 }

@@ -1,13 +1,11 @@
 //! What `report.json` says.
 
-use std::fs;
-
 use radiosity::bake::Report;
 use radiosity::lightmap::Resolution;
 use serde::Serialize;
-use sysinfo::{ProcessRefreshKind, ProcessesToUpdate, System};
 
 use super::args::Args;
+use super::memory;
 
 /// Everything that `report.json` says.
 #[derive(Serialize)]
@@ -90,7 +88,7 @@ impl<'a> ReportFile<'a> {
             ev100,
             threads: report.threads,
             seed: report.seed,
-            peak_memory_bytes: peak_memory_bytes(),
+            peak_memory_bytes: memory::peak_bytes(),
             estimated_memory_bytes: report.estimated_memory_bytes,
             stages: report
                 .stages
@@ -103,20 +101,4 @@ impl<'a> ReportFile<'a> {
             warnings,
         }
     }
-}
-
-/// The most memory that this process had; where the system does not tell, what it has now.
-fn peak_memory_bytes() -> u64 {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix("kB"));
-    peak.and_then(|kibibytes| kibibytes.trim().parse::<u64>().ok())
-        .map_or_else(memory_bytes, |kibibytes| kibibytes << 10)
-}
-
-fn memory_bytes() -> u64 {
-    let Ok(own) = sysinfo::get_current_pid() else { return 0 };
-    let mut system = System::new();
-    let memory = ProcessRefreshKind::nothing().with_memory();
-    system.refresh_processes_specifics(ProcessesToUpdate::Some(&[own]), false, memory);
-    system.process(own).map_or(0, |process| process.memory())
 }

@@ -31,7 +31,7 @@ pub(super) struct Written<'a> {
 
 impl Written<'_> {
     /// Writes the files, those last that say what the others are, and says what came out.
-    pub fn write(mut self, mut staging: Staging) -> Result<String, CliError> {
+    pub fn write(mut self, mut staging: Staging<'_>) -> Result<String, CliError> {
         let manifest = self.manifest();
         for (image, entry) in self.bake.images.iter().zip(&manifest.images) {
             staging.write(&entry.file, &ktx2::encode(image))?;
