@@ -10,7 +10,7 @@ use bevy::math::Affine2;
 use bevy::mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, UvChannel, VertexAttributeValues};
 use bevy::prelude::*;
 use radiosity::light::{self, LightSource};
-use radiosity::material::{self, Texels, Texture, TextureRef, UvSet, Wrap};
+use radiosity::material::{self, Filter, Texels, Texture, TextureRef, UvSet, Wrap};
 use wgpu_types::TextureFormat;
 
 /// A mesh as the core has it.
@@ -114,7 +114,15 @@ pub fn texture(name: &str, image: &Image) -> Result<Texture, String> {
         return Err("ends too early; replace the file".into());
     }
     let (wrap_u, wrap_v) = wrap(&image.sampler);
-    Ok(Texture { name: name.to_owned(), width: size.width, height: size.height, texels, wrap_u, wrap_v })
+    Ok(Texture {
+        name: name.to_owned(),
+        width: size.width,
+        height: size.height,
+        texels,
+        wrap_u,
+        wrap_v,
+        filter: Filter::Linear,
+    })
 }
 
 /// Texels of any format that Bevy can read.

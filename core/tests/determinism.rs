@@ -5,6 +5,7 @@ mod common;
 
 use common::*;
 use radiosity::bake::{BakeError, BakeSettings, Quality, bake};
+use radiosity::light::{Light, LightSource, PointLight};
 use radiosity::progress::Progress;
 use radiosity::scene::{Scene, cornell_box};
 
@@ -50,6 +51,17 @@ fn errors_name_the_culprit() {
     let mut broken = room([0.0; 3], [1.0; 3], grey(0.5, 1.0));
     broken.meshes[3].triangles[0][1] = 99;
     assert!(fails(&broken, &BakeSettings::default()).to_string().contains("room 3"));
+    let mut broken = room([0.0; 3], [1.0; 3], grey(0.5, 1.0));
+    broken.lights.push(Light {
+        name: "the lamp".into(),
+        source: LightSource::Point(PointLight {
+            position: glam::Vec3::NAN,
+            intensity: glam::Vec3::ONE,
+            range: f32::INFINITY,
+            radius: 0.0,
+        }),
+    });
+    assert!(fails(&broken, &BakeSettings::default()).to_string().contains("the lamp"));
     let small = BakeSettings { memory_bytes: 1 << 20, ..settings(16.0, Quality::Draft) };
     let message = fails(&room([0.0; 3], [1.0; 3], grey(0.5, 1.0)), &small).to_string();
     assert!(message.contains("may use 1 MiB"), "{message}");

@@ -152,3 +152,38 @@ fn light_is_linear() {
     let (one, two) = (with(64.0), with(128.0));
     assert!(one.images[0].texels.iter().zip(&two.images[0].texels).all(|(one, two)| *one * 2.0 == *two));
 }
+
+/// A sky dome ten kilometers away does not lift rays over what lies two centimeters above a floor.
+#[test]
+fn far_geometry_does_not_open_contacts() {
+    let mut scene = floor(grey(0.5, 0.0));
+    add_box(&mut scene, "slab", [-1.0, 0.02, -1.0], [1.0, 0.1, 1.0], 0, false);
+    add_box(&mut scene, "dome", [-1e4; 3], [1e4; 3], 0, true);
+    for surface in scene.surfaces.iter_mut().filter(|surface| surface.name.starts_with("dome")) {
+        surface.receiver = radiosity::scene::Receiver::Nothing;
+    }
+    let sun = DirectionalLight { direction: Vec3::NEG_Y, illuminance: Vec3::splat(PI), angular_diameter: 0.0 };
+    scene.lights.push(lamp(LightSource::Directional(sun)));
+    scene.surfaces.iter_mut().filter(|surface| surface.name == "dome 1").for_each(|roof| roof.casts = false);
+    let bake = baked(&scene, &settings(8.0, Quality::Draft));
+    let lit = lookup(&scene, &bake, Vec3::new(1.5, 0.0, 0.0), Vec3::Y).x;
+    let below = lookup(&scene, &bake, Vec3::new(0.1, 0.0, 0.1), Vec3::Y).x;
+    assert!((lit - 1.0).abs() < 0.05 && below < 0.02, "{lit} {below}");
+}
+
+/// An emitter that its mask cuts away gives no light; one that lets half through gives half.
+#[test]
+fn emitters_follow_their_alpha() {
+    let at = |alpha: f32, mode: AlphaMode| {
+        let mut scene = floor(grey(0.5, 0.0));
+        let mut panel = grey(0.0, 10.0);
+        (panel.base_color.w, panel.alpha) = (alpha, mode);
+        scene.materials.push(panel);
+        add_quad(&mut scene, "panel", [[-0.2, 1.0, -0.2], [0.2, 1.0, -0.2], [0.2, 1.0, 0.2], [-0.2, 1.0, 0.2]], 1);
+        lookup(&scene, &baked(&scene, &settings(8.0, Quality::Draft)), Vec3::ZERO, Vec3::Y).x
+    };
+    let whole = at(1.0, AlphaMode::Opaque);
+    assert!(whole > 0.1);
+    assert_eq!(at(0.2, AlphaMode::Mask(0.5)), 0.0);
+    assert!((at(0.5, AlphaMode::Blend) / whole - 0.5).abs() < 1e-3);
+}

@@ -66,9 +66,9 @@ impl<O: Occluders> Stage<'_, O> {
         let sequence = Sobol::new(seed);
         let mut ends: Vec<End> = (0..rays)
             .map(|k| {
-                let (point, normal) = self.patches.point(self.world(), self.texels, patch, &sequence, k);
+                let (triangle, point, normal) = self.patches.point(self.world(), self.texels, patch, &sequence, k);
                 let direction = cosine_direction(sequence.square(k), normal);
-                let ray = self.tracer.leave(point, normal, direction, f32::INFINITY);
+                let ray = self.tracer.leave(triangle, point, normal, direction, f32::INFINITY);
                 match self.tracer.nearest(&ray, hash(seed, k)) {
                     None => End::Sky,
                     Some(hit) => match self.patches.at(self.world(), self.texels, &hit) {
@@ -126,13 +126,17 @@ impl<O: Occluders> Stage<'_, O> {
         let sequence = Sobol::new(hash(self.seed ^ 0x00d1_9ec7, index as u32));
         let mut sum = Vec3::ZERO;
         for k in 0..DIRECT_POINTS {
-            let (point, normal) = self.patches.point(self.world(), self.texels, patch, &sequence, k);
+            let (triangle, point, normal) = self.patches.point(self.world(), self.texels, patch, &sequence, k);
             for light in lights {
                 let irradiance = light.irradiance(point, normal);
-                let ray = light.shadow_ray(sequence.square(k), point, normal);
-                if irradiance != Vec3::ZERO && ray.weight > 0.0 {
-                    let end = if ray.end == 1.0 { 1.0 - 1e-4 } else { ray.end };
-                    sum += irradiance * self.tracer.visibility(&self.tracer.leave(point, normal, ray.direction, end));
+                if irradiance == Vec3::ZERO {
+                    continue;
+                }
+                let shadow = light.shadow_ray(sequence.square(k), point, normal);
+                if shadow.weight > 0.0 {
+                    let end = if shadow.end == 1.0 { 1.0 - 1e-4 } else { shadow.end };
+                    let ray = self.tracer.leave(triangle, point, normal, shadow.direction, end);
+                    sum += irradiance * self.tracer.visibility(&ray);
                     self.tracer.count(1);
                 }
             }

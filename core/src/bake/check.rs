@@ -3,8 +3,11 @@
 use alloc::format;
 use alloc::string::String;
 
+use glam::Vec3;
+
 use super::{BakeError, BakeSettings};
 use crate::geometry::Mesh;
+use crate::light::{Light, LightSource, SpotLight};
 use crate::lightmap::Resolution;
 use crate::scene::{Receiver, Scene};
 
@@ -29,11 +32,38 @@ pub(super) fn check(scene: &Scene, settings: &BakeSettings) -> Result<(), BakeEr
     if !scene.surfaces.iter().any(|surface| receives(&surface.receiver) && triangles(surface.mesh) > 0) {
         return Err(BakeError::NothingToBake);
     }
+    scene.lights.iter().try_for_each(check_light)?;
     let emits = scene.surfaces.iter().any(|surface| surface.casts && scene.materials[surface.material].is_emissive());
-    if scene.lights.is_empty() && !emits && scene.sky.max_element() <= 0.0 {
+    if !scene.lights.iter().any(|light| strength(&light.source).0.max_element() > 0.0)
+        && !emits
+        && scene.sky.max_element() <= 0.0
+    {
         return Err(BakeError::NoLight);
     }
     Ok(())
+}
+
+fn check_light(light: &Light) -> Result<(), BakeError> {
+    let (strength, place) = strength(&light.source);
+    if strength.is_finite() && strength.min_element() >= 0.0 && place.is_finite() {
+        return Ok(());
+    }
+    invalid(format!(
+        "light \"{}\" has a position, direction or strength that is negative or not finite; mend it or leave it out",
+        light.name
+    ))
+}
+
+/// How strong a light is, and the sum of all vectors and lengths that place it: finite if all are.
+fn strength(source: &LightSource) -> (Vec3, Vec3) {
+    match source {
+        LightSource::Point(light) => (light.intensity, light.position + light.radius),
+        LightSource::Spot(SpotLight { point, direction, inner_angle, outer_angle }) => {
+            (point.intensity, point.position + *direction + (point.radius + inner_angle + outer_angle))
+        }
+        LightSource::Directional(light) => (light.illuminance, light.direction + light.angular_diameter),
+        LightSource::Rect(light) => (light.radiance, light.center + light.half_width + light.half_height),
+    }
 }
 
 fn check_settings(settings: &BakeSettings) -> Result<(), BakeError> {

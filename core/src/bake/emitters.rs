@@ -3,41 +3,58 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
-use crate::geometry::normal_and_area;
+use crate::geometry::{Hit, Sobol, normal_and_area};
 use crate::light::{AreaLight, DirectLight};
 use crate::scene::World;
 
-/// Emissive surfaces with at most so many triangles become lights.
-const MOST_TRIANGLES: usize = 64;
 /// Emissive surfaces with more than this share of all area are seen well enough by the rays that gather.
 const LARGEST_SHARE: f32 = 0.05;
+/// Points of a triangle at which its textures are looked up.
+const POINTS: u32 = 16;
 
 /// The lights of a scene, and for each surface whether its emission is among them.
 ///
-/// Small, uniform emitters would be noise in gathered light: as lights they are a closed form times a visible share.
+/// Small emitters would be noise in gathered light: as lights they are a closed form times a visible share. Each
+/// triangle has one radiance then, the mean of its texture.
 pub(super) fn lights(world: &World) -> (Vec<DirectLight>, Vec<bool>) {
     let mut lights: Vec<DirectLight> = world.scene.lights.iter().map(|light| (&light.source).into()).collect();
+    lights.retain(|light| !matches!(light, DirectLight::Area(light) if light.is_empty()));
     let mut is_light = vec![false; world.scene.surfaces.len()];
     let triangles = triangles_of_surfaces(world);
-    let area = |triangle: u32| normal_and_area(&world.corners[triangle as usize]).map_or(0.0, |(_, area)| area);
-    let areas: Vec<f32> =
-        triangles.iter().map(|of_surface| of_surface.iter().map(|&triangle| area(triangle)).sum()).collect();
+    let area = |&triangle: &u32| normal_and_area(&world.corners[triangle as usize]).map_or(0.0, |(_, area)| area);
+    let areas: Vec<f32> = triangles.iter().map(|of_surface| of_surface.iter().map(area).sum()).collect();
     let whole: f32 = areas.iter().sum();
     for (index, surface) in world.scene.surfaces.iter().enumerate() {
         let material = &world.scene.materials[surface.material];
-        let count = triangles[index].len();
-        let shines = surface.casts && material.is_emissive() && material.emissive_texture.is_none();
-        if !shines || count == 0 || count > MOST_TRIANGLES || areas[index] > LARGEST_SHARE * whole {
+        if !surface.casts || !material.is_emissive() || areas[index] > LARGEST_SHARE * whole {
             continue;
         }
-        let corners = triangles[index].iter().map(|&triangle| world.corners[triangle as usize]);
-        let light = AreaLight::new(corners, material.emissive.max(Vec3::ZERO), material.double_sided);
+        let emitters =
+            triangles[index].iter().map(|&triangle| (world.corners[triangle as usize], mean_emission(world, triangle)));
+        let light = AreaLight::new(emitters, material.double_sided);
         is_light[index] = true;
-        lights.push(DirectLight::Area(light));
+        if !light.is_empty() {
+            lights.push(DirectLight::Area(light));
+        }
     }
     (lights, is_light)
+}
+
+/// The mean radiance of a triangle; where it lets light through it emits less.
+fn mean_emission(world: &World, triangle: u32) -> Vec3 {
+    let hit = |barycentric| Hit { triangle, distance: 0.0, barycentric, front: true };
+    let emission = |hit: &Hit| world.emission(hit) * world.opacity(hit);
+    if world.material(triangle).emissive_texture.is_none() && world.sides[triangle as usize].is_opaque {
+        return emission(&hit(Vec2::ZERO));
+    }
+    let sequence = Sobol::new(0);
+    let points = (0..POINTS).map(|index| {
+        let Vec2 { x, y } = sequence.square(index);
+        hit(if x + y > 1.0 { Vec2::new(1.0 - x, 1.0 - y) } else { Vec2::new(x, y) })
+    });
+    points.map(|point| emission(&point)).sum::<Vec3>() / POINTS as f32
 }
 
 fn triangles_of_surfaces(world: &World) -> Vec<Vec<u32>> {

@@ -66,6 +66,9 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter(Stage::Unwrap);
     let workers = Workers::new(settings.threads);
     let layout = workers.run(|| layout(scene, &settings.layout, progress))?;
+    if layout.placements.iter().all(Option::is_none) {
+        return Err(BakeError::NothingToBake);
+    }
     let needed = memory::check(scene, &layout, budget.row, budget.patches, settings.memory_bytes)?;
 
     log.enter(Stage::Geometry);

@@ -35,13 +35,13 @@ impl From<Quality> for RayBudget {
                 row: 128,
                 patches: 4096,
                 shadow: ShadowRays { first: 16, sharp: 8, penumbra: 64 },
-                gather: GatherSettings { rays: 64, most_rays: 512, spacing: 0.12, contrast: 0.08, noise: 0.02 },
+                gather: GatherSettings { rays: 64, most_rays: 1024, spacing: 0.12, contrast: 0.08, noise: 0.02 },
             },
             Quality::High => Self {
                 row: 256,
                 patches: 16384,
                 shadow: ShadowRays { first: 32, sharp: 16, penumbra: 256 },
-                gather: GatherSettings { rays: 256, most_rays: 2048, spacing: 0.06, contrast: 0.04, noise: 0.01 },
+                gather: GatherSettings { rays: 256, most_rays: 4096, spacing: 0.06, contrast: 0.04, noise: 0.01 },
             },
         }
     }

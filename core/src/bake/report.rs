@@ -56,7 +56,7 @@ pub struct StageReport {
 /// Errors relative to the true value plus a tenth of the mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EstimatedError {
-    /// Root mean square, from two independent halves of the rays.
+    /// Root mean square: noise of indirect light, and what changes between texels.
     pub rms: f32,
     /// Mean signed error over the mean, from patches against texels.
     pub bias: f32,

@@ -9,7 +9,7 @@ pub struct BakeSettings {
     pub layout: LayoutSettings,
     /// How many rays.
     pub quality: Quality,
-    /// Worker threads; 0: one for each core. The result does not depend on it.
+    /// Worker threads, at most 256; 0: one for each core. The result does not depend on it.
     pub threads: usize,
     /// What the bake may use at most, in bytes; it fails with the numbers where that is too little.
     pub memory_bytes: u64,

@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3, Vec4};
 /// Indexed triangles, counter-clockwise seen from the front.
 ///
 /// Every list but `positions` and `triangles` may be empty; otherwise it has one entry for each vertex.
-/// Vertices may be NaN and triangles degenerate: the bake leaves those triangles out and counts them.
+/// Vertices may be NaN and triangles degenerate: the bake leaves those triangles out.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// For messages.

@@ -8,26 +8,32 @@ use glam::{Vec2, Vec3};
 use super::RectLight;
 use super::falloff::range_window;
 use crate::form_factor::point_to_triangle;
-use crate::geometry::normal_and_area;
+use crate::geometry::{Sobol, normal_and_area};
 use crate::math;
+
+/// With more triangles than this the irradiance is a sum over points instead of closed forms.
+const MOST_CLOSED_FORMS: usize = 256;
+/// So many points.
+const POINTS: u32 = 512;
 
 /// Triangles that emit diffusely, each from the side its winding shows or from both.
 #[derive(Clone, Debug)]
 pub struct AreaLight {
-    /// Emitted radiance in cd/m2.
-    pub radiance: Vec3,
     /// The light fades to zero here, by [`range_window`]; infinite: no window.
     pub range: f32,
     /// Whether the backs of the triangles emit too.
     pub both_sides: bool,
     triangles: Vec<Emitter>,
+    /// Area times level of all triangles.
+    power: f32,
 }
 
-/// A triangle with its share of the area of the light, all shares before it included.
+/// A triangle with its share of the power of the light, all shares before it included.
 #[derive(Clone, Copy, Debug)]
 struct Emitter {
     corners: [Vec3; 3],
     normal: Vec3,
+    radiance: Vec3,
     share_end: f32,
 }
 
@@ -38,47 +44,62 @@ pub struct LightPoint {
     pub position: Vec3,
     /// Away from the surface that emits, length 1.
     pub normal: Vec3,
+    /// Radiance over its mean of the channels.
+    color: Vec3,
 }
 
 impl AreaLight {
-    /// A light of these triangles; degenerate ones are left out. It has no triangles where all are degenerate.
-    pub fn new(triangles: impl Iterator<Item = [Vec3; 3]>, radiance: Vec3, both_sides: bool) -> Self {
-        let mut area_so_far = 0.0;
+    /// A light of these triangles, each with its radiance in cd/m2; those without area or light are left out, so that
+    /// the light may be empty.
+    pub fn new(triangles: impl Iterator<Item = ([Vec3; 3], Vec3)>, both_sides: bool) -> Self {
+        let mut power = 0.0;
         let mut emitters: Vec<Emitter> = triangles
-            .filter_map(|corners| {
+            .filter(|(_, radiance)| radiance.max_element() > 0.0)
+            .filter_map(|(corners, radiance)| {
                 let (normal, area) = normal_and_area(&corners)?;
-                area_so_far += area;
-                Some(Emitter { corners, normal, share_end: area_so_far })
+                power += area * level(radiance);
+                Some(Emitter { corners, normal, radiance, share_end: power })
             })
             .collect();
-        emitters.iter_mut().for_each(|emitter| emitter.share_end /= area_so_far);
-        Self { radiance, range: f32::INFINITY, both_sides, triangles: emitters }
+        emitters.iter_mut().for_each(|emitter| emitter.share_end /= power);
+        Self { range: f32::INFINITY, both_sides, triangles: emitters, power }
     }
 
     /// Irradiance in lux at a point with this normal of length 1, with nothing between: `pi L F`, windowed.
+    ///
+    /// Of more than 256 triangles it is summed over 512 points of the light, the same for all lit points.
     pub fn irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
-        let form_factor: f32 = self
-            .triangles
-            .iter()
-            .filter(|emitter| self.both_sides || (point - emitter.corners[0]).dot(emitter.normal) > 0.0)
-            .map(|emitter| point_to_triangle(point, normal, &emitter.corners))
-            .sum();
-        if form_factor == 0.0 {
-            return Vec3::ZERO;
-        }
-        self.radiance * (PI * form_factor * self.window(point))
+        let sum = if self.triangles.len() > MOST_CLOSED_FORMS {
+            self.sum_over_points(point, normal)
+        } else {
+            self.sum_of_closed_forms(point, normal)
+        };
+        if sum == Vec3::ZERO { sum } else { sum * self.window(point) }
     }
 
-    /// The point of the light that belongs to a point of the unit square, uniform in area.
+    fn sum_of_closed_forms(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        let shows = |emitter: &&Emitter| self.both_sides || (point - emitter.corners[0]).dot(emitter.normal) > 0.0;
+        let from = |emitter: &Emitter| emitter.radiance * (PI * point_to_triangle(point, normal, &emitter.corners));
+        self.triangles.iter().filter(shows).map(from).sum()
+    }
+
+    fn sum_over_points(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        let sequence = Sobol::new(0);
+        let points = (0..POINTS).map(|index| self.point(sequence.square(index)));
+        let sum: Vec3 = points.map(|light| light.color * self.weight(&light, point, normal)).sum();
+        sum * (self.power / POINTS as f32)
+    }
+
+    /// The point of the light that belongs to a point of the unit square, uniform in power.
     pub fn point(&self, square: Vec2) -> LightPoint {
         let last = self.triangles.len() - 1;
         let index = self.triangles.partition_point(|emitter| emitter.share_end <= square.x).min(last);
         let start = if index == 0 { 0.0 } else { self.triangles[index - 1].share_end };
-        let Emitter { corners: [a, b, c], normal, share_end } = self.triangles[index];
+        let Emitter { corners: [a, b, c], normal, radiance, share_end } = self.triangles[index];
         let stretched = ((square.x - start) / (share_end - start).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
         let root = math::sqrt(stretched);
         let position = a * (1.0 - root) + b * (root * (1.0 - square.y)) + c * (root * square.y);
-        LightPoint { position, normal }
+        LightPoint { position, normal, color: radiance / level(radiance) }
     }
 
     /// The weight of a shadow ray to a point of the light: `cos cos' / r^2`, zero behind either surface.
@@ -101,24 +122,29 @@ impl AreaLight {
         range_window(center.distance_squared(point), self.range)
     }
 
-    /// Whether the light has no area.
+    /// Whether the light has no area or no radiance.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
+}
+
+/// The mean of the channels.
+fn level(radiance: Vec3) -> f32 {
+    radiance.element_sum() / 3.0
 }
 
 impl From<&RectLight> for AreaLight {
     fn from(light: &RectLight) -> Self {
         let corner = |u: f32, v: f32| light.center + light.half_width * u + light.half_height * v;
         let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-        Self { range: light.range, ..Self::new([[a, b, c], [a, c, d]].into_iter(), light.radiance, false) }
+        let triangles = [[a, b, c], [a, c, d]].map(|corners| (corners, light.radiance));
+        Self { range: light.range, ..Self::new(triangles.into_iter(), false) }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Sobol;
 
     fn panel() -> AreaLight {
         AreaLight::from(&RectLight {
@@ -143,5 +169,23 @@ mod tests {
     #[test]
     fn backs_are_dark() {
         assert_eq!(panel().irradiance(Vec3::new(0.0, 5.0, 0.0), Vec3::NEG_Y), Vec3::ZERO);
+    }
+
+    /// A sphere of many triangles is a sphere: E = pi L (r / d)^2 for a surface that faces it.
+    #[test]
+    fn many_triangles() {
+        let corner = |i: usize, j: usize| {
+            let (sin, cos) = math::sin_cos(PI * i as f32 / 24.0);
+            let (s, c) = math::sin_cos(2.0 * PI * j as f32 / 48.0);
+            Vec3::new(sin * c, cos, sin * s) * 0.1
+        };
+        let sphere = (0..24 * 48).flat_map(|k| {
+            let (i, j) = (k / 48, k % 48);
+            let [a, b, c, d] = [corner(i, j), corner(i, j + 1), corner(i + 1, j + 1), corner(i + 1, j)];
+            [([a, b, c], Vec3::new(5.0, 2.0, 0.0)), ([a, c, d], Vec3::new(5.0, 2.0, 0.0))]
+        });
+        let got = AreaLight::new(sphere, false).irradiance(Vec3::new(0.0, 0.0, -1.0), Vec3::Z);
+        let expected = Vec3::new(5.0, 2.0, 0.0) * PI * 0.01;
+        assert!((got - expected).length() < 0.02 * expected.length(), "{got} {expected}");
     }
 }

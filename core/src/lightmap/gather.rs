@@ -128,7 +128,7 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
                 nodes.push(texel);
             }
         }
-        let rays = (self.settings.rays * u32::from(width)).min(self.settings.most_rays);
+        let rays = (self.settings.rays * u32::from(width) * u32::from(width)).min(self.settings.most_rays);
         let found = workers.map(nodes.len(), 32, progress, |range| {
             nodes[range].iter().map(|&texel| Gathered { width, ..self.node(texel, rays, self.seed) }).collect()
         })?;
@@ -190,7 +190,7 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
             let sequence = Sobol::new(seed);
             for k in place * (rays / 2)..(place + 1) * (rays / 2) {
                 let direction = above(cosine_direction(sequence.square(k), texel.normal), flat);
-                let ray = self.tracer.leave(texel.position, flat, direction, f32::INFINITY);
+                let ray = self.tracer.leave(texel.triangle, texel.position, flat, direction, f32::INFINITY);
                 match self.tracer.nearest(&ray, hash(seed, k)) {
                     Some(hit) => {
                         inverse_distances += 1.0 / hit.distance.max(1e-6);

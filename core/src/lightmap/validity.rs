@@ -56,9 +56,11 @@ fn pushed_out<O: Occluders>(texel: &Texel, texels: &Texels, tracer: &Tracer<O>) 
         .into_iter()
         .filter(|step| *step != Vec3::ZERO)
         .find_map(|step| {
-            let hit = tracer.nearest(&tracer.leave(texel.position, normal, step, 0.5), 0)?;
+            let hit = tracer.nearest(&tracer.leave(texel.triangle, texel.position, normal, step, 0.5), 0)?;
             let is_back = !hit.front && !tracer.world.sides[hit.triangle as usize].both;
-            is_back.then(|| texel.position + step * hit.distance + step.normalize() * (4.0 * tracer.lift()))
+            is_back.then(|| {
+                texel.position + step * hit.distance + step.normalize() * (4.0 * tracer.world.lift(texel.triangle))
+            })
         })
         .unwrap_or(texel.position)
 }
@@ -75,6 +77,7 @@ fn sees_fronts<O: Occluders>(texel: &Texel, tracer: &Tracer<O>, seed: u32) -> bo
 fn meets_back<O: Occluders>(texel: &Texel, tracer: &Tracer<O>, seed: u32, index: u32) -> bool {
     let normal = tracer.world.normals[texel.triangle as usize];
     let direction = cosine_direction(Sobol::new(seed).square(index), normal);
-    let hit = tracer.nearest(&tracer.leave(texel.position, normal, direction, f32::INFINITY), hash(seed, index));
+    let hit = tracer
+        .nearest(&tracer.leave(texel.triangle, texel.position, normal, direction, f32::INFINITY), hash(seed, index));
     hit.is_some_and(|hit| !hit.front && !tracer.world.sides[hit.triangle as usize].both)
 }

@@ -7,7 +7,7 @@ use super::{AlphaMode, Material, Texture, TextureRef, UvSet};
 impl Material {
     /// Diffuse reflectance per linear RGB channel, in `[0, 1]`.
     ///
-    /// `uv_0` and `uv_1` are the coordinates of the mesh there, `color` its vertex color, white where it has none.
+    /// `uv_0` and `uv_1` are the coordinates of the mesh there, NaN where it has none; `color` is its vertex color, white where it has none.
     pub fn reflectance_at(&self, textures: &[Texture], uv_0: Vec2, uv_1: Vec2, color: Vec4) -> Vec3 {
         let base = self.base_color_at(textures, uv_0, uv_1, color).truncate();
         let metallic = self.metallic * lookup(&self.metallic_texture, textures, uv_0, uv_1).z;
@@ -51,7 +51,7 @@ impl Material {
     }
 }
 
-/// Linear RGBA of a texture, white where there is none.
+/// Linear RGBA of a texture, white where there is none, and where a mesh has no coordinates for it: those are NaN.
 fn lookup(texture: &Option<TextureRef>, textures: &[Texture], uv_0: Vec2, uv_1: Vec2) -> Vec4 {
     let Some(reference) = texture else { return Vec4::ONE };
     let Some(texture) = textures.get(reference.texture) else { return Vec4::ONE };
@@ -59,6 +59,9 @@ fn lookup(texture: &Option<TextureRef>, textures: &[Texture], uv_0: Vec2, uv_1: 
         UvSet::Uv0 => uv_0,
         UvSet::Uv1 => uv_1,
     };
+    if uv.is_nan() {
+        return Vec4::ONE;
+    }
     texture.sample(reference.transform.transform_point2(uv))
 }
 
@@ -69,7 +72,7 @@ fn saturate(x: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Texels, Wrap};
+    use super::super::{Filter, Texels, Wrap};
     use super::*;
     use alloc::string::String;
     use alloc::vec;
@@ -84,6 +87,7 @@ mod tests {
             texels: Texels::Linear32(vec![left, right]),
             wrap_u: Wrap::Clamp,
             wrap_v: Wrap::Clamp,
+            filter: Filter::Linear,
         }
     }
 

@@ -22,6 +22,18 @@ pub struct Texture {
     pub wrap_u: Wrap,
     /// Outside `0..1` in `v`.
     pub wrap_v: Wrap,
+    /// Between the centers of texels.
+    pub filter: Filter,
+}
+
+/// How a texture is read between the centers of its texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Filter {
+    /// The four texels around are mixed.
+    #[default]
+    Linear,
+    /// The nearest texel counts.
+    Nearest,
 }
 
 /// The texels of a texture. Alpha is linear always.
@@ -48,12 +60,16 @@ pub enum Wrap {
 }
 
 impl Texture {
-    /// Linear RGBA at `uv`, bilinear between the centers of the texels; NaN and infinity count as 0.
+    /// Linear RGBA at `uv`; infinity counts as 0.
     ///
     /// Colors are decoded before they are mixed. A texture without texels is white.
     pub fn sample(&self, uv: Vec2) -> Vec4 {
         let size = Vec2::new(self.width as f32, self.height as f32);
         let inside = Vec2::new(self.wrap_u.into_unit(uv.x), self.wrap_v.into_unit(uv.y));
+        if self.filter == Filter::Nearest {
+            let texel = inside * size;
+            return self.texel(texel.x as i32, texel.y as i32);
+        }
         let position = inside * size - 0.5;
         let corner = position.floor();
         let share = position - corner;
@@ -124,7 +140,7 @@ mod tests {
     fn row(wrap: Wrap, texels: Vec<[f32; 4]>) -> Texture {
         let width = texels.len() as u32;
         let texels = Texels::Linear32(texels);
-        Texture { name: String::new(), width, height: 1, texels, wrap_u: wrap, wrap_v: wrap }
+        Texture { name: String::new(), width, height: 1, texels, wrap_u: wrap, wrap_v: wrap, filter: Filter::Linear }
     }
 
     fn grays(wrap: Wrap) -> Texture {
@@ -176,8 +192,15 @@ mod tests {
     #[test]
     fn rows_run_down() {
         let texels = Texels::Linear8(vec![[0; 4], [255; 4]]);
-        let texture =
-            Texture { name: String::new(), width: 1, height: 2, texels, wrap_u: Wrap::Repeat, wrap_v: Wrap::Clamp };
+        let texture = Texture {
+            name: String::new(),
+            width: 1,
+            height: 2,
+            texels,
+            wrap_u: Wrap::Repeat,
+            wrap_v: Wrap::Clamp,
+            filter: Filter::Linear,
+        };
         assert_eq!(texture.sample(Vec2::new(0.3, 0.0)), Vec4::ZERO);
         assert_eq!(texture.sample(Vec2::new(-7.3, 0.5)), Vec4::splat(0.5));
         assert_eq!(texture.sample(Vec2::new(0.3, 1.0)), Vec4::ONE);
@@ -206,6 +229,25 @@ mod tests {
                 assert!(texture.sample(Vec2::splat(huge)).is_finite());
             }
             assert_eq!(row(wrap, vec![]).sample(Vec2::splat(0.7)), Vec4::ONE);
+        }
+    }
+
+    /// Without a filter a texel is one color up to its border.
+    #[test]
+    fn nearest_texels_do_not_mix() {
+        let texels = Texels::Linear8(vec![[255; 4], [0; 4]]);
+        let wrap = Wrap::Repeat;
+        let texture = Texture {
+            name: String::new(),
+            width: 2,
+            height: 1,
+            texels,
+            wrap_u: wrap,
+            wrap_v: wrap,
+            filter: Filter::Nearest,
+        };
+        for (u, expected) in [(0.01, 1.0), (0.49, 1.0), (0.51, 0.0), (0.99, 0.0), (1.01, 1.0)] {
+            assert_eq!(texture.sample(Vec2::new(u, 0.5)).x, expected, "at {u}");
         }
     }
 }

@@ -10,6 +10,9 @@ use rayon::prelude::*;
 
 use crate::progress::{Cancelled, Progress};
 
+/// More threads than this only take memory and time to start.
+const MOST_THREADS: usize = 256;
+
 /// How often a bake that waits looks whether it was cancelled.
 const WAIT: Duration = Duration::from_millis(2);
 
@@ -17,13 +20,13 @@ const WAIT: Duration = Duration::from_millis(2);
 pub struct Workers(rayon::ThreadPool);
 
 impl Workers {
-    /// As many threads as asked for; 0: one for each core.
+    /// As many threads as asked for, at most 256; 0: one for each core.
     ///
     /// # Panics
     ///
     /// Where the machine refuses to start a thread.
     pub fn new(threads: usize) -> Self {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.min(MOST_THREADS)).build();
         Self(pool.expect("the machine can start threads"))
     }
 

@@ -102,15 +102,22 @@ impl Patches {
         })
     }
 
-    /// A point on a patch and the normal of its side, for ray `index` of a sequence whose dimensions 2 and 3 are free.
-    pub fn point(&self, world: &World, texels: &Texels, patch: &Patch, sequence: &Sobol, index: u32) -> (Vec3, Vec3) {
+    /// A triangle of a patch, a point on it and the normal of its side, for ray `index` of a sequence whose dimensions 2 and 3 are free.
+    pub fn point(
+        &self,
+        world: &World,
+        texels: &Texels,
+        patch: &Patch,
+        sequence: &Sobol,
+        index: u32,
+    ) -> (u32, Vec3, Vec3) {
         let members = &self.members[patch.first as usize..patch.end as usize];
         let target = sequence.dimension(index, 2) * patch.area;
         let chosen = members.partition_point(|member| member.area_end <= target).min(members.len() - 1);
-        let (point, normal) = match members[chosen].site {
+        let (triangle, point, normal) = match members[chosen].site {
             Site::Texel(texel) => {
                 let texel = &texels.list[texel as usize];
-                (texel.position, texel.normal)
+                (texel.triangle, texel.position, texel.normal)
             }
             Site::Triangle(triangle) => {
                 let start = if chosen == 0 { 0.0 } else { members[chosen - 1].area_end };
@@ -118,10 +125,11 @@ impl Patches {
                     ((target - start) / (members[chosen].area_end - start).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
                 let [a, b, c] = world.corners[triangle as usize];
                 let (root, across) = (math::sqrt(along), sequence.dimension(index, 3));
-                (a * (1.0 - root) + b * (root * (1.0 - across)) + c * (root * across), world.normals[triangle as usize])
+                let point = a * (1.0 - root) + b * (root * (1.0 - across)) + c * (root * across);
+                (triangle, point, world.normals[triangle as usize])
             }
         };
-        (point, normal * patch.side)
+        (triangle, point, normal * patch.side)
     }
 
     fn add_cells(&mut self, world: &World, texels: &Texels, cells: &[(u64, u32)]) {

@@ -23,10 +23,8 @@ pub struct World<'a> {
     pub sides: Vec<Sides>,
     /// How many triangles, from the first, block light.
     pub blockers: usize,
-    /// How many triangles were left out for want of area.
-    pub degenerate: usize,
-    /// How many triangles were left out because a corner is not finite.
-    pub not_finite: usize,
+    /// For each triangle that was left out because a corner is not finite where it comes from.
+    pub not_finite: Vec<Source>,
 }
 
 /// Where a triangle comes from.
@@ -57,8 +55,7 @@ impl<'a> World<'a> {
             sources: Vec::new(),
             sides: Vec::new(),
             blockers: 0,
-            degenerate: 0,
-            not_finite: 0,
+            not_finite: Vec::new(),
         };
         world.add_surfaces(|surface| surface.casts);
         world.blockers = world.corners.len();
@@ -82,15 +79,13 @@ impl<'a> World<'a> {
             None => Vec3::NAN,
         });
         if !corners.iter().all(|corner| corner.is_finite()) {
-            self.not_finite += 1;
+            self.not_finite.push(source);
         } else if let Some((normal, _)) = normal_and_area(&corners) {
             self.corners.push(corners);
             self.normals.push(normal);
             self.sources.push(source);
             let material = &self.scene.materials[surface.material];
             self.sides.push(Sides { is_opaque: material.is_opaque(), both: material.double_sided });
-        } else {
-            self.degenerate += 1;
         }
     }
 
@@ -104,6 +99,13 @@ impl<'a> World<'a> {
     /// its winding around.
     pub fn in_order<T>(&self, source: Source, [a, b, c]: [T; 3]) -> [T; 3] {
         if is_mirrored(self.surface_of(source)) { [a, c, b] } else { [a, b, c] }
+    }
+
+    /// How far above a triangle rays must start, in meters: beyond the rounding of its corners and of points on it.
+    #[inline]
+    pub fn lift(&self, triangle: u32) -> f32 {
+        let [a, b, c] = self.corners[triangle as usize];
+        5e-6 * a.abs().max(b.abs()).max(c.abs()).max_element().max(1e-6)
     }
 
     /// The material of a triangle.
@@ -167,7 +169,7 @@ impl<'a> World<'a> {
         let source = self.sources[hit.triangle as usize];
         let (mesh, vertices) = (self.mesh_of(source), self.vertices(source));
         [&mesh.uv_0, &mesh.uv_1]
-            .map(|uvs| if uvs.is_empty() { Vec2::ZERO } else { hit.interpolate(vertices.map(|vertex| uvs[vertex])) })
+            .map(|uvs| if uvs.is_empty() { Vec2::NAN } else { hit.interpolate(vertices.map(|vertex| uvs[vertex])) })
     }
 
     fn color(&self, hit: &Hit) -> Vec4 {

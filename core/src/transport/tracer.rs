@@ -12,22 +12,13 @@ pub struct Tracer<'a, O> {
     /// The triangles with their materials.
     pub world: &'a World<'a>,
     occluders: O,
-    /// Rays start this far above surfaces: a share of the largest coordinate, above the rounding of positions.
-    lift: f32,
     rays: AtomicUsize,
 }
 
 impl<'a, O: Occluders> Tracer<'a, O> {
     /// `occluders` holds the triangles of the world that block light.
     pub fn new(world: &'a World<'a>, occluders: O) -> Self {
-        let (low, high) = world.bounds();
-        let largest = low.abs().max(high.abs()).max_element();
-        Self { world, occluders, lift: 5e-6 * largest.clamp(1e-6, 1e9), rays: AtomicUsize::new(0) }
-    }
-
-    /// How far above surfaces rays start, in meters.
-    pub fn lift(&self) -> f32 {
-        self.lift
+        Self { world, occluders, rays: AtomicUsize::new(0) }
     }
 
     /// Counts rays that were traced.
@@ -44,10 +35,11 @@ impl<'a, O: Occluders> Tracer<'a, O> {
     /// by `seed`. Where two one-sided surfaces lie back to back, the one that faces the ray is met.
     #[inline]
     pub fn nearest(&self, ray: &Ray, seed: u32) -> Option<Hit> {
-        let slack = 4.0 * self.lift / ray.direction.length();
+        let scale = 4.0 / ray.direction.length();
         self.occluders.first(ray, |hit| {
             let shows = hit.front || self.world.sides[hit.triangle as usize].both;
-            self.blocks(hit, seed).then_some(if shows { hit.distance } else { hit.distance + slack })
+            let slack = if shows { 0.0 } else { scale * self.world.lift(hit.triangle) };
+            self.blocks(hit, seed).then_some(hit.distance + slack)
         })
     }
 
@@ -70,9 +62,9 @@ impl<'a, O: Occluders> Tracer<'a, O> {
         if blocked { 0.0 } else { passes }
     }
 
-    /// A ray that starts just above a surface.
+    /// A ray that starts at a point of a triangle, just above it on the side of `normal`.
     #[inline]
-    pub fn leave(&self, point: Vec3, normal: Vec3, direction: Vec3, end: f32) -> Ray {
-        Ray { origin: point + normal * self.lift, direction, end }
+    pub fn leave(&self, triangle: u32, point: Vec3, normal: Vec3, direction: Vec3, end: f32) -> Ray {
+        Ray { origin: point + normal * self.world.lift(triangle), direction, end }
     }
 }
