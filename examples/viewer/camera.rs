@@ -45,11 +45,14 @@ fn switch_off_others(mut others: Query<&mut Camera, (Added<Camera>, Without<Orbi
     }
 }
 
+/// The cameras of the scene.
+type Others = (With<Camera>, Without<Orbit>);
+
 /// Takes the place of the first camera of the scene, or one from which all of it is to be seen.
 fn see_all(
     started: On<BakeStarted>,
     ours: Single<(&mut Orbit, &mut Transform, &mut Projection)>,
-    others: Query<(&GlobalTransform, &Projection), (With<Camera>, Without<Orbit>)>,
+    others: Query<(&GlobalTransform, &Projection), Others>,
 ) {
     let (mut orbit, mut transform, mut lens) = ours.into_inner();
     let all = overview(&started.collected.scene);
