@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 
 use bevy::gltf::GltfMaterial;
-use bevy::image::{ImageAddressMode, ImageSampler};
+use bevy::image::{ImageAddressMode, ImageFilterMode, ImageSampler};
 use bevy::light::{DirectionalLight, PointLight, RectLight, SpotLight};
 use bevy::material::AlphaMode;
 use bevy::math::Affine2;
@@ -121,7 +121,7 @@ pub fn texture(name: &str, image: &Image) -> Result<Texture, String> {
         texels,
         wrap_u,
         wrap_v,
-        filter: Filter::Linear,
+        filter: filter(&image.sampler),
     })
 }
 
@@ -155,6 +155,15 @@ fn wrap(sampler: &ImageSampler) -> (Wrap, Wrap) {
         // The default of `ImagePlugin` clamps.
         ImageSampler::Default => (Wrap::Clamp, Wrap::Clamp),
         ImageSampler::Descriptor(descriptor) => (wrap(&descriptor.address_mode_u), wrap(&descriptor.address_mode_v)),
+    }
+}
+
+/// How a picture looks where it is larger than its texels, as those of pixel art are.
+fn filter(sampler: &ImageSampler) -> Filter {
+    match sampler {
+        ImageSampler::Descriptor(descriptor) if descriptor.mag_filter == ImageFilterMode::Nearest => Filter::Nearest,
+        // The default of `ImagePlugin` mixes.
+        ImageSampler::Descriptor(_) | ImageSampler::Default => Filter::Linear,
     }
 }
 
@@ -325,8 +334,9 @@ pub fn rect_light(light: &RectLight, transform: &GlobalTransform) -> LightSource
 ///
 /// A direction is lost below a scale of 0; a rectangle without area has no radiance.
 pub fn is_usable(source: &LightSource) -> bool {
+    let is_strength = |strength: Vec3| strength.is_finite() && strength.min_element() >= 0.0;
     let is_point = |point: &light::PointLight| {
-        point.position.is_finite() && point.intensity.is_finite() && point.range > 0.0 && point.radius.is_finite()
+        point.position.is_finite() && is_strength(point.intensity) && point.range > 0.0 && point.radius.is_finite()
     };
     match source {
         LightSource::Point(point) => is_point(point),
@@ -335,12 +345,12 @@ pub fn is_usable(source: &LightSource) -> bool {
             is_point(&spot.point) && spot.direction.is_finite() && angles.iter().all(|angle| angle.is_finite())
         }
         LightSource::Directional(sun) => {
-            sun.direction.is_finite() && sun.illuminance.is_finite() && sun.angular_diameter.is_finite()
+            sun.direction.is_finite() && is_strength(sun.illuminance) && sun.angular_diameter.is_finite()
         }
         LightSource::Rect(rect) => {
             let normal = rect.half_width.cross(rect.half_height);
             let has_area = normal.is_finite() && normal != Vec3::ZERO;
-            has_area && rect.center.is_finite() && rect.radiance.is_finite() && rect.range > 0.0
+            has_area && rect.center.is_finite() && is_strength(rect.radiance) && rect.range > 0.0
         }
     }
 }
@@ -438,6 +448,18 @@ mod tests {
         let mut gone = image(TextureFormat::Rgba8Unorm, &[0; 4]);
         gone.data = None;
         assert!(texture("", &gone).is_err());
+    }
+
+    #[test]
+    fn samplers_say_how_pictures_are_filtered() {
+        let mut picture = image(TextureFormat::Rgba8Unorm, &[0; 4]);
+        assert_eq!(texture("", &picture).unwrap().filter, Filter::Linear);
+        for (sampler, expected) in
+            [(ImageSampler::nearest(), Filter::Nearest), (ImageSampler::linear(), Filter::Linear)]
+        {
+            picture.sampler = sampler;
+            assert_eq!(texture("", &picture).unwrap().filter, expected);
+        }
     }
 
     /// 4 pi lumens are one candela, for points and, as in Bevy, for spots; colors are linear.

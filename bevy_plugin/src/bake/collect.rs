@@ -226,8 +226,8 @@ impl<'w> Collector<'w> {
         for source in sources.into_iter().flatten() {
             let name = name_of(self.world, entity);
             if !convert::is_usable(&source) {
-                let note = "is a light that is left out, because its place, direction, size or brightness is not a \
-                            finite number; correct it, and the scale above it, which must not be 0";
+                let note = "is a light that is left out, because its place, direction, size, range or brightness is \
+                            negative, not finite or lost to a scale of 0; correct it and the scales above it";
                 self.note(note, name);
                 continue;
             }

@@ -137,6 +137,7 @@ fn lights_that_are_not_finite_are_left_out_and_named() {
         root.spawn((Name::new("crushed panel"), RectLight::default(), flat));
         root.spawn((Name::new("empty panel"), RectLight { width: 0.0, ..default() }));
         root.spawn((Name::new("bright"), PointLight { intensity: f32::INFINITY, ..default() }));
+        root.spawn((Name::new("dark"), PointLight { intensity: -1.0, ..default() }));
         root.spawn((Name::new("lost"), PointLight::default(), Transform::from_xyz(f32::NAN, 0.0, 0.0)));
         root.spawn((Name::new("small"), PointLight::default(), flat));
         root.spawn((Name::new("panel"), RectLight::default()));
@@ -145,5 +146,5 @@ fn lights_that_are_not_finite_are_left_out_and_named() {
     let names: Vec<&str> = collected.scene.lights.iter().map(|light| light.name.as_str()).collect();
     assert_eq!((names, collected.lights.len()), (vec!["small", "panel"], 2));
     let told = &collected.warnings[0];
-    assert!(told.starts_with("\"crushed spot\"") && told.contains("5 more") && told.contains("scale"), "{told}");
+    assert!(told.starts_with("\"crushed spot\"") && told.contains("6 more") && told.contains("scale"), "{told}");
 }
