@@ -22,7 +22,7 @@ pub(crate) fn with_lightmap_uv(mesh: &Mesh, uv: &LightmapUv) -> Option<Mesh> {
     split.duplicate_vertices();
     if !has_uv_0 {
         // The shader of Bevy 0.19.1 does not compile for a mesh with `UV_1` alone.
-        split.insert_attribute(Mesh::ATTRIBUTE_UV_0, uv_1.clone());
+        split.insert_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0_f32; 2]; uv_1.len()]);
     }
     split.insert_attribute(Mesh::ATTRIBUTE_UV_1, uv_1);
     split.insert_indices(indices(uv));
