@@ -14,7 +14,7 @@ const SIDE: u32 = 512;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let scene = cornell_box();
-    let layout = LayoutSettings { resolution: Resolution::TexelsPerMeter(256.0), ..Default::default() };
+    let layout = LayoutSettings { resolution: Resolution::TexelsPerMeter(512.0), ..Default::default() };
     let bake = bake(&scene, &BakeSettings { layout, ..Default::default() }, &Progress::default())?;
     for stage in &bake.report.stages {
         println!("{:>10} {:6.2} s {:10} rays", stage.name, stage.seconds, stage.rays);
