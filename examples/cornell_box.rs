@@ -15,13 +15,15 @@ const SIDE: u32 = 512;
 fn main() -> Result<(), Box<dyn Error>> {
     let scene = cornell_box();
     let layout = LayoutSettings { resolution: Resolution::TexelsPerMeter(512.0), ..Default::default() };
-    let bake = bake(&scene, &BakeSettings { layout, ..Default::default() }, &Progress::default())?;
+    let progress = Progress::default();
+    let bake = bake(&scene, &BakeSettings { layout, ..Default::default() }, &progress)?;
     for stage in &bake.report.stages {
         println!("{:>10} {:6.2} s {:10} rays", stage.name, stage.seconds, stage.rays);
     }
 
     let (pose, fov_y) = cornell_camera();
-    let picture = preview(&scene, &bake, &Camera::perspective(pose, fov_y), SIDE, SIDE, None);
+    let camera = Camera::perspective(pose, fov_y);
+    let picture = preview(&scene, &bake, &camera, [SIDE, SIDE], None, &progress)?;
     let header = format!("P6 {SIDE} {SIDE} 255\n");
     fs::write(FILE, [header.as_bytes(), picture.rgb.as_flattened()].concat())?;
     println!("{FILE} shows it at EV100 {:.1}", picture.ev100);

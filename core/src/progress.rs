@@ -1,5 +1,6 @@
 //! What a running bake is doing, seen and stopped from another thread.
 
+use core::fmt;
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use alloc::boxed::Box;
@@ -68,6 +69,14 @@ pub struct Snapshot {
 /// The bake was cancelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cancelled;
+
+impl fmt::Display for Cancelled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("cancelled")
+    }
+}
+
+impl core::error::Error for Cancelled {}
 
 /// Where in the whole bake each stage starts, from typical times; the last entry is the end.
 const START: [f32; 8] = [0.0, 0.05, 0.08, 0.40, 0.50, 0.51, 0.98, 1.0];

@@ -31,7 +31,8 @@ pub(super) struct Staging<'a> {
     folder: PathBuf,
     is_new: bool,
     names: Vec<String>,
-    interrupted: &'a AtomicBool,
+    /// Whether the user wants it stopped.
+    pub interrupted: &'a AtomicBool,
 }
 
 impl<'a> Staging<'a> {

@@ -40,7 +40,8 @@ impl Written<'_> {
         self.add_coordinates()?;
         staging.write("scene.glb", &self.document.to_glb())?;
         let Loaded { collected, camera, .. } = &self.loaded;
-        let (picture, ev100) = preview::encode(&collected.scene, &self.bake, *camera, self.args.ev100)?;
+        let (picture, ev100) =
+            preview::encode(&collected.scene, &self.bake, *camera, self.args.ev100, staging.interrupted)?;
         staging.write("preview.png", &picture)?;
         let warnings = [&collected.warnings[..], &self.bake.report.warnings].concat();
         let scene = self.args.scene.as_deref().and_then(Path::file_name);

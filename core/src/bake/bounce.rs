@@ -13,11 +13,15 @@ use crate::parallel::Workers;
 use crate::patch::{Patch, Patches, Site};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::World;
-use crate::solve::{FormFactors, System, chebyshev};
+use crate::solve::{Chebyshev, FormFactors, System};
 use crate::transport::{End, RowCounts, Rows, Tracer};
 
 /// Surfaces that reflect more are taken to reflect this much: nothing real reflects all.
 pub(super) const LARGEST_REFLECTANCE: f32 = 0.98;
+/// The solution is this close, as a share of the brightest patch...
+const TOLERANCE: f32 = 1e-5;
+/// ...which reflectances up to 0.98 reach long before.
+const MOST_SWEEPS: usize = 1000;
 /// Points of a patch from which direct light is looked for where it has no texels to average.
 const DIRECT_POINTS: u32 = 16;
 
@@ -156,14 +160,21 @@ impl<O: Occluders> Stage<'_, O> {
 
 impl Bounce {
     /// Solves `b = e + rho (D + sky + F b)` for all bounces.
-    pub fn solve(&mut self, rows: &Rows, sky: Vec3) {
+    pub fn solve(&mut self, rows: &Rows, sky: Vec3, progress: &Progress) -> Result<(), Cancelled> {
         let count = self.reflectance.len();
         let exitance: Vec<Vec3> =
             (0..count).map(|i| self.emission[i] + self.reflectance[i] * (self.direct[i] + sky * rows.sky(i))).collect();
         self.radiance = exitance.clone();
         let system = System { exitance: &exitance, reflectance: &self.reflectance, form_factors: rows };
-        chebyshev(&system, &mut self.radiance, &mut vec![Vec3::ZERO; 2 * count], 1e-5, 1000);
+        let (mut sweeps, mut scratch) = (Chebyshev::new(&system), vec![Vec3::ZERO; 2 * count]);
+        for _ in 0..MOST_SWEEPS {
+            progress.check()?;
+            if sweeps.sweep(&system, &mut self.radiance, &mut scratch, TOLERANCE) {
+                break;
+            }
+        }
         self.indirect = (0..count).map(|i| sky * rows.sky(i) + rows.receive(i, &self.radiance)).collect();
+        Ok(())
     }
 
     /// (Emitted - absorbed - escaped) / emitted power, by what the rows say. Form factors from rays obey reciprocity

@@ -90,7 +90,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
 
     log.enter_after(Stage::Solve, &tracer);
     let mut bounce = stage.bounce(&direct, &lights, &is_light)?;
-    bounce.solve(&rows, scene.sky);
+    bounce.solve(&rows, scene.sky, progress)?;
 
     log.enter_after(Stage::Gather, &tracer);
     let incident = Incident::new(&direct, &texels, &patches, &bounce, &workers, progress)?;

@@ -11,7 +11,7 @@ use crate::geometry::{Hit, Ray};
 use crate::lightmap::LightmapImage;
 use crate::material::linear_to_srgb;
 use crate::parallel::Workers;
-use crate::progress::Progress;
+use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 
 /// Rays for each pixel, in each direction.
@@ -33,7 +33,18 @@ pub struct Preview {
 ///
 /// One-sided surfaces are not seen from behind. A surface without a lightmap is lit by the mean of all texels. Where
 /// `ev100` is `None`, [`automatic_ev100`] chooses it. Tone mapping is [`khronos_pbr_neutral`].
-pub fn preview(scene: &Scene, bake: &Bake, camera: &Camera, width: u32, height: u32, ev100: Option<f32>) -> Preview {
+///
+/// # Errors
+///
+/// Where the progress was told to cancel.
+pub fn preview(
+    scene: &Scene,
+    bake: &Bake,
+    camera: &Camera,
+    [width, height]: [u32; 2],
+    ev100: Option<f32>,
+    progress: &Progress,
+) -> Result<Preview, Cancelled> {
     let ev100 = ev100.unwrap_or_else(|| automatic_ev100(&bake.images));
     let picture = Picture {
         view: View::new(scene),
@@ -44,11 +55,10 @@ pub fn preview(scene: &Scene, bake: &Bake, camera: &Camera, width: u32, height: 
         exposure: exposure(ev100),
     };
     let row = |y: usize| (0..width).map(move |x| (x, y as u32));
-    let never_cancelled = Progress::with_clock(|| 0.0);
-    let rgb = Workers::new(bake.report.threads).map(height as usize, 1, &never_cancelled, |rows| {
+    let rgb = Workers::new(bake.report.threads).map(height as usize, 1, progress, |rows| {
         rows.map(|y| row(y).map(|(x, y)| picture.pixel(x, y)).collect::<Vec<_>>()).collect()
-    });
-    Preview { rgb: rgb.unwrap_or_default().concat(), ev100 }
+    })?;
+    Ok(Preview { rgb: rgb.concat(), ev100 })
 }
 
 /// Everything that a pixel depends on.
@@ -186,7 +196,7 @@ mod tests {
     /// A picture of 4 x 4 pixels that the first square just fills.
     fn take(scene: &Scene, bake: &Bake, ev100: Option<f32>) -> Preview {
         let camera = Camera::looking_at(Vec3::new(0.0, 0.0, 2.0), Vec3::ZERO, 2.0 * 0.5_f32.atan());
-        preview(scene, bake, &camera, 4, 4, ev100)
+        preview(scene, bake, &camera, [4, 4], ev100, &Progress::with_clock(|| 0.0)).unwrap()
     }
 
     /// The EV100 whose exposure is 1.

@@ -16,26 +16,53 @@ pub fn chebyshev<S: Spectrum, F: FormFactors>(
     tolerance: f32,
     max_sweeps: usize,
 ) -> usize {
-    let count = radiosity.len();
-    let (before, next) = scratch[..2 * count].split_at_mut(count);
-    let rho = system.largest_reflectance();
-    before.copy_from_slice(radiosity);
-    let mut omega = 1.0;
+    let mut sweeps = Chebyshev::new(system);
     for sweep in 1..=max_sweeps {
+        if sweeps.sweep(system, radiosity, scratch, tolerance) {
+            return sweep;
+        }
+    }
+    max_sweeps
+}
+
+/// The iteration of [`chebyshev`] sweep by sweep, for callers who have to look at something else in between.
+#[derive(Clone, Copy, Debug)]
+pub struct Chebyshev {
+    rho: f32,
+    omega: f32,
+    sweeps: usize,
+}
+
+impl Chebyshev {
+    /// Before the first sweep.
+    pub fn new<S: Spectrum, F: FormFactors>(system: &System<S, F>) -> Self {
+        Self { rho: system.largest_reflectance(), omega: 1.0, sweeps: 0 }
+    }
+
+    /// One sweep, with the same slices each time. Tells whether the solution is as close as `tolerance` asks.
+    pub fn sweep<S: Spectrum, F: FormFactors>(
+        &mut self,
+        system: &System<S, F>,
+        radiosity: &mut [S],
+        scratch: &mut [S],
+        tolerance: f32,
+    ) -> bool {
+        let Self { rho, omega, sweeps } = *self;
+        let (before, next) = scratch[..2 * radiosity.len()].split_at_mut(radiosity.len());
+        if sweeps == 0 {
+            before.copy_from_slice(radiosity);
+        }
         let (mut residual, mut largest) = (0.0_f32, 0.0_f32);
-        for i in 0..count {
+        for i in 0..radiosity.len() {
             let jacobi = system.update(i, radiosity);
             residual = residual.max((jacobi - radiosity[i]).max_abs());
             largest = largest.max(jacobi.max_abs());
             next[i] = before[i] + (jacobi - before[i]) * omega;
         }
-        if residual <= tolerance * largest * (1.0 - rho) {
-            radiosity.copy_from_slice(next);
-            return sweep;
-        }
         before.copy_from_slice(radiosity);
         radiosity.copy_from_slice(next);
-        omega = if sweep == 1 { 2.0 / (2.0 - rho * rho) } else { 1.0 / (1.0 - 0.25 * rho * rho * omega) };
+        self.sweeps += 1;
+        self.omega = if sweeps == 0 { 2.0 / (2.0 - rho * rho) } else { 1.0 / (1.0 - 0.25 * rho * rho * omega) };
+        residual <= tolerance * largest * (1.0 - rho)
     }
-    max_sweeps
 }
