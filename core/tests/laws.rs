@@ -1,6 +1,5 @@
 //! Laws of diffuse light that every bake must obey, in scenes whose answer is known in closed form.
 
-#[expect(dead_code, reason = "each test uses a part of the helpers")]
 mod common;
 
 use common::*;

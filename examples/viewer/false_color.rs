@@ -17,11 +17,12 @@ const GRAYS: [[u8; 4]; 2] = [[190, 190, 190, 255], [110, 110, 110, 255]];
 
 /// What a view shows of a lightmap, if it is about more than its light.
 pub fn image(view: View, lightmap: &LightmapImage) -> Option<Image> {
-    let of_index = |indices: &[u32]| indices.iter().flat_map(|&index| of_index(index)).collect();
+    let of_indices =
+        |indices: &[u32], hue: fn(u32) -> f32| indices.iter().flat_map(|&index| of_index(index, hue)).collect();
     let pixels = match view {
         View::Texels => (0..lightmap.texels.len()).flat_map(|at| of_state(lightmap, at)).collect(),
-        View::Charts => of_index(&lightmap.charts),
-        View::Patches => of_index(&lightmap.patches),
+        View::Charts => of_indices(&lightmap.charts, golden_hue),
+        View::Patches => of_indices(&lightmap.patches, random_hue),
         View::Lit | View::Lightmap | View::Albedo => return None,
     };
     let size = Extent3d { width: lightmap.width, height: lightmap.height, depth_or_array_layers: 1 };
@@ -45,12 +46,20 @@ fn of_state(lightmap: &LightmapImage, at: usize) -> [u8; 4] {
     }
 }
 
-/// Hues go on by the golden angle, so that few charts differ well; lightness is random, so that many patches do.
-fn of_index(index: u32) -> [u8; 4] {
+fn of_index(index: u32, hue: fn(u32) -> f32) -> [u8; 4] {
     if index == NONE {
         return NOTHING;
     }
-    let hue = (137.507_76 * f64::from(index) % 360.0) as f32;
     let lightness = 0.4 + 0.4 * (hash(index, 0) % 256) as f32 / 256.0;
-    Color::hsl(hue, 0.65, lightness).to_srgba().to_u8_array()
+    Color::hsl(hue(index), 0.65, lightness).to_srgba().to_u8_array()
+}
+
+/// On by the golden angle each time, so that few charts differ well.
+fn golden_hue(index: u32) -> f32 {
+    (137.507_76 * f64::from(index) % 360.0) as f32
+}
+
+/// For many patches: any regular step shows as stripes where rows are as long as its period.
+fn random_hue(index: u32) -> f32 {
+    (hash(index, 1) % 360) as f32
 }

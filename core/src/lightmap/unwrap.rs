@@ -15,7 +15,8 @@
 //! | xatlas, its defaults, gutters of 2 texels | 14 427 | | 3.66 M | 0.9726 | 1.04 |
 //!
 //! Its iterative solver is slow on large curved charts and cannot be stopped: a torus of 200 000 triangles takes 18 s,
-//! 11 of them in one go. In pieces of 2000 triangles it takes 3 s, and a cancelled bake ends within 25 ms.
+//! 11 of them in one go. In pieces of 2000 triangles it takes 3 s, and a cancelled bake ends within
+//! 0.1 s.
 
 use std::collections::HashMap;
 use std::vec;

@@ -1,6 +1,6 @@
 //! Scenes made in code, and lightmaps looked up as a GPU does.
 
-use glam::{Affine3A, Vec2, Vec3, Vec4};
+use glam::{Affine3A, Vec2, Vec3};
 use radiosity::bake::{Bake, BakeSettings, Quality, bake};
 use radiosity::geometry::Mesh;
 use radiosity::lightmap::{LayoutSettings, Resolution};
@@ -123,6 +123,3 @@ pub fn valid_texels(bake: &Bake) -> impl Iterator<Item = Vec3> + '_ {
         image.texels.iter().zip(&image.states).filter(move |(_, state)| valid(state)).map(|(texel, _)| *texel)
     })
 }
-
-/// Linear white for vertex colors.
-pub const WHITE: Vec4 = Vec4::ONE;
