@@ -33,8 +33,7 @@
 //! | [`solve`] | the radiosity equation `b = e + rho F b` |
 //! | `scene` | surfaces, materials and lights; the measured Cornell box |
 //! | `transport` | rows of form factors from rays |
-//! | `lightmap` | charts, atlases, texels: direct light, gathered light, repairs |
-//! | `patch` | surfaces in pieces that bounce light |
+//! | `lightmap` | charts, atlases, texels, patches of them: direct light, gathered light, repairs |
 //! | `bake` | the whole pipeline, its settings and its report |
 //! | `render` | a baked scene as a camera sees it |
 //!
@@ -87,8 +86,6 @@ pub mod scene;
 pub mod transport;
 #[cfg(feature = "alloc")]
 pub mod lightmap;
-#[cfg(feature = "alloc")]
-pub mod patch;
 #[cfg(feature = "alloc")]
 pub mod bake;
 #[cfg(feature = "alloc")]

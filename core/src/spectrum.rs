@@ -2,7 +2,9 @@
 
 use core::ops::{Add, AddAssign, Mul, Sub};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
+
+use crate::math::Real;
 
 /// A quantity with one number for each band. Products are band by band: bands do not mix in diffuse reflection.
 pub trait Spectrum:
@@ -13,76 +15,112 @@ pub trait Spectrum:
     + AddAssign
     + Sub<Output = Self>
     + Mul<Output = Self>
-    + Mul<f32, Output = Self>
+    + Mul<Self::Scalar, Output = Self>
+    + Send
+    + Sync
 {
+    /// The number of one band.
+    type Scalar: Real;
+
+    /// The same number in all bands.
+    fn splat(value: Self::Scalar) -> Self;
     /// The largest magnitude of all bands.
-    fn max_abs(self) -> f32;
+    fn max_abs(self) -> Self::Scalar;
 }
 
-impl Spectrum for f32 {
-    fn max_abs(self) -> f32 {
-        self.max(-self)
-    }
+macro_rules! gray {
+    ($real:ident) => {
+        impl Spectrum for $real {
+            type Scalar = Self;
+
+            fn splat(value: Self) -> Self {
+                value
+            }
+            fn max_abs(self) -> Self {
+                Real::abs(self)
+            }
+        }
+    };
 }
 
-impl Spectrum for Vec3 {
-    fn max_abs(self) -> f32 {
-        self.abs().max_element()
-    }
+gray!(f32);
+gray!(f64);
+
+macro_rules! rgb {
+    ($vector:ident, $real:ident) => {
+        impl Spectrum for $vector {
+            type Scalar = $real;
+
+            fn splat(value: $real) -> Self {
+                $vector::splat(value)
+            }
+            fn max_abs(self) -> $real {
+                self.abs().max_element()
+            }
+        }
+    };
 }
+
+rgb!(Vec3, f32);
+rgb!(DVec3, f64);
 
 /// `N` wavelength bands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bands<const N: usize>(pub [f32; N]);
+pub struct Bands<const N: usize, R = f32>(pub [R; N]);
 
-impl<const N: usize> Bands<N> {
-    fn zip(self, other: Self, apply: impl Fn(f32, f32) -> f32) -> Self {
+impl<const N: usize, R: Real> Bands<N, R> {
+    fn zip(self, other: Self, apply: impl Fn(R, R) -> R) -> Self {
         Self(core::array::from_fn(|band| apply(self.0[band], other.0[band])))
     }
 }
 
-impl<const N: usize> Default for Bands<N> {
+impl<const N: usize, R: Real> Default for Bands<N, R> {
     fn default() -> Self {
-        Self([0.0; N])
+        Self([R::ZERO; N])
     }
 }
 
-impl<const N: usize> Add for Bands<N> {
+impl<const N: usize, R: Real> Add for Bands<N, R> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         self.zip(other, |a, b| a + b)
     }
 }
 
-impl<const N: usize> AddAssign for Bands<N> {
+impl<const N: usize, R: Real> AddAssign for Bands<N, R> {
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<const N: usize> Sub for Bands<N> {
+impl<const N: usize, R: Real> Sub for Bands<N, R> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self.zip(other, |a, b| a - b)
     }
 }
 
-impl<const N: usize> Mul for Bands<N> {
+impl<const N: usize, R: Real> Mul for Bands<N, R> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         self.zip(other, |a, b| a * b)
     }
 }
 
-impl<const N: usize> Mul<f32> for Bands<N> {
+impl<const N: usize, R: Real> Mul<R> for Bands<N, R> {
     type Output = Self;
-    fn mul(self, factor: f32) -> Self {
+    fn mul(self, factor: R) -> Self {
         Self(self.0.map(|a| a * factor))
     }
 }
 
-impl<const N: usize> Spectrum for Bands<N> {
-    fn max_abs(self) -> f32 {
-        self.0.iter().fold(0.0, |largest, &a| largest.max(a.max(-a)))
+impl<const N: usize, R: Real> Spectrum for Bands<N, R> {
+    type Scalar = R;
+
+    fn splat(value: R) -> Self {
+        Self([value; N])
+    }
+    fn max_abs(self) -> R {
+        self.0.iter().fold(R::ZERO, |largest, &a| largest.max(a.abs()))
     }
 }

@@ -5,9 +5,8 @@ use alloc::vec::Vec;
 
 use glam::Vec3;
 
-use crate::lightmap::{LightmapImage, NONE, Smooth, TexelState, Texels, dilate};
+use crate::lightmap::{LightmapImage, NONE, Patches, Smooth, TexelState, Texels, dilate};
 use crate::parallel::Workers;
-use crate::patch::Patches;
 use crate::progress::{Cancelled, Progress};
 
 /// The finished images: direct and indirect light together, what is missing filled in.

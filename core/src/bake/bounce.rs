@@ -8,9 +8,8 @@ use glam::Vec3;
 
 use crate::geometry::{Hit, Occluders, Sobol, cosine_direction, hash};
 use crate::light::DirectLight;
-use crate::lightmap::Texels;
+use crate::lightmap::{Patch, Patches, Site, Texels};
 use crate::parallel::Workers;
-use crate::patch::{Patch, Patches, Site};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::World;
 use crate::solve::{Chebyshev, FormFactors, System};

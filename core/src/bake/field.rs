@@ -6,10 +6,9 @@ use glam::Vec3;
 
 use super::bounce::{Bounce, LARGEST_REFLECTANCE};
 use crate::geometry::Hit;
-use crate::lightmap::{NONE, Texel, Texels};
+use crate::lightmap::{NONE, Patches, Texel, Texels};
 use crate::math;
 use crate::parallel::Workers;
-use crate::patch::Patches;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::World;
 

@@ -24,10 +24,10 @@ use glam::Vec3;
 use crate::geometry::{Occluders, hash, tree};
 use crate::light::DirectLight;
 use crate::lightmap::{
-    Direct, Gather, LightmapImage, LightmapUv, Placement, Smooth, Texels, check as check_texels, filter, layout,
+    Direct, Gather, LightmapImage, LightmapUv, Patches, Placement, Smooth, Texels, check as check_texels, filter,
+    layout,
 };
 use crate::parallel::Workers;
-use crate::patch::Patches;
 use crate::progress::{Cancelled, Progress, Stage};
 use crate::scene::{Scene, World};
 use crate::transport::Tracer;

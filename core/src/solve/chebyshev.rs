@@ -1,6 +1,7 @@
 //! Jacobi iteration accelerated by Chebyshev polynomials: what a bake uses.
 
 use super::{FormFactors, System};
+use crate::math::Real;
 use crate::spectrum::Spectrum;
 
 /// Solves from the start given in `radiosity`; stops and returns as [`super::jacobi`] does.
@@ -9,11 +10,11 @@ use crate::spectrum::Spectrum;
 /// `[-rho_max, rho_max]`, because `F` is similar to a symmetric matrix (reciprocity) with rows that sum to at most 1;
 /// on this interval the Chebyshev semi-iteration is the best of all polynomials, needs no scalar products, and so gives
 /// the same bits for any number of threads. Golub and Varga 1961; `w_(k+1) = 1 / (1 - rho^2 w_k / 4)`.
-pub fn chebyshev<S: Spectrum, F: FormFactors>(
+pub fn chebyshev<S: Spectrum, F: FormFactors<Scalar = S::Scalar>>(
     system: &System<S, F>,
     radiosity: &mut [S],
     scratch: &mut [S],
-    tolerance: f32,
+    tolerance: S::Scalar,
     max_sweeps: usize,
 ) -> usize {
     let mut sweeps = Chebyshev::new(system);
@@ -27,32 +28,32 @@ pub fn chebyshev<S: Spectrum, F: FormFactors>(
 
 /// The iteration of [`chebyshev`] sweep by sweep, for callers who have to look at something else in between.
 #[derive(Clone, Copy, Debug)]
-pub struct Chebyshev {
-    rho: f32,
-    omega: f32,
+pub struct Chebyshev<R> {
+    rho: R,
+    omega: R,
     sweeps: usize,
 }
 
-impl Chebyshev {
+impl<R: Real> Chebyshev<R> {
     /// Before the first sweep.
-    pub fn new<S: Spectrum, F: FormFactors>(system: &System<S, F>) -> Self {
-        Self { rho: system.largest_reflectance(), omega: 1.0, sweeps: 0 }
+    pub fn new<S: Spectrum<Scalar = R>, F: FormFactors<Scalar = R>>(system: &System<S, F>) -> Self {
+        Self { rho: system.largest_reflectance(), omega: R::ONE, sweeps: 0 }
     }
 
     /// One sweep, with the same slices each time. Tells whether the solution is as close as `tolerance` asks.
-    pub fn sweep<S: Spectrum, F: FormFactors>(
+    pub fn sweep<S: Spectrum<Scalar = R>, F: FormFactors<Scalar = R>>(
         &mut self,
         system: &System<S, F>,
         radiosity: &mut [S],
         scratch: &mut [S],
-        tolerance: f32,
+        tolerance: R,
     ) -> bool {
         let Self { rho, omega, sweeps } = *self;
         let (before, next) = scratch[..2 * radiosity.len()].split_at_mut(radiosity.len());
         if sweeps == 0 {
             before.copy_from_slice(radiosity);
         }
-        let (mut residual, mut largest) = (0.0_f32, 0.0_f32);
+        let (mut residual, mut largest) = (R::ZERO, R::ZERO);
         for i in 0..radiosity.len() {
             let jacobi = system.update(i, radiosity);
             residual = residual.max((jacobi - radiosity[i]).max_abs());
@@ -62,7 +63,8 @@ impl Chebyshev {
         before.copy_from_slice(radiosity);
         radiosity.copy_from_slice(next);
         self.sweeps += 1;
-        self.omega = if sweeps == 0 { 2.0 / (2.0 - rho * rho) } else { 1.0 / (1.0 - 0.25 * rho * rho * omega) };
-        residual <= tolerance * largest * (1.0 - rho)
+        let share = rho * rho / R::from_f64(if sweeps == 0 { 2.0 } else { 4.0 });
+        self.omega = R::ONE / (R::ONE - share * omega);
+        residual <= tolerance * largest * (R::ONE - rho)
     }
 }

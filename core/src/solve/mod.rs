@@ -11,23 +11,40 @@ pub use chebyshev::*;
 pub use gauss_seidel::*;
 pub use jacobi::*;
 
+use crate::math::Real;
 use crate::spectrum::Spectrum;
 
-/// The form factors of a system, row by row.
+/// The form factors of a system, a row on demand.
 pub trait FormFactors {
+    /// Single or double precision.
+    type Scalar: Real;
+
+    /// Calls `entry` with `j` and `F_ij` for each `j` that patch `i` sees, in a fixed order.
+    fn row(&self, i: usize, entry: impl FnMut(usize, Self::Scalar));
+
     /// `sum_j F_ij b_j`: what patch `i` receives.
-    fn receive<S: Spectrum>(&self, i: usize, radiosity: &[S]) -> S;
+    fn receive<S: Spectrum<Scalar = Self::Scalar>>(&self, i: usize, radiosity: &[S]) -> S {
+        let mut sum = S::default();
+        self.row(i, |j, factor| sum += radiosity[j] * factor);
+        sum
+    }
 }
 
-/// A full matrix, row after row.
+/// A full square matrix, row after row.
 #[derive(Clone, Copy, Debug)]
-pub struct Dense<'a>(pub &'a [f32]);
+pub struct Dense<'a, R> {
+    /// Of one row, and of one column.
+    pub count: usize,
+    /// `count x count` form factors; `F_ij` stands at `i x count + j`.
+    pub factors: &'a [R],
+}
 
-impl FormFactors for Dense<'_> {
-    fn receive<S: Spectrum>(&self, i: usize, radiosity: &[S]) -> S {
-        let count = radiosity.len();
-        let row = &self.0[i * count..(i + 1) * count];
-        row.iter().zip(radiosity).fold(S::default(), |sum, (&factor, &b)| sum + b * factor)
+impl<R: Real> FormFactors for Dense<'_, R> {
+    type Scalar = R;
+
+    fn row(&self, i: usize, mut entry: impl FnMut(usize, R)) {
+        let row = &self.factors[i * self.count..(i + 1) * self.count];
+        row.iter().enumerate().for_each(|(j, &factor)| entry(j, factor));
     }
 }
 
@@ -42,15 +59,15 @@ pub struct System<'a, S, F> {
     pub form_factors: &'a F,
 }
 
-impl<S: Spectrum, F: FormFactors> System<'_, S, F> {
+impl<S: Spectrum, F: FormFactors<Scalar = S::Scalar>> System<'_, S, F> {
     /// The right-hand side `e_i + rho_i sum_j F_ij b_j`.
     fn update(&self, i: usize, radiosity: &[S]) -> S {
         self.exitance[i] + self.reflectance[i] * self.form_factors.receive(i, radiosity)
     }
 
     /// The largest reflectance of any patch in any band: it bounds how fast the light dies out.
-    fn largest_reflectance(&self) -> f32 {
-        self.reflectance.iter().fold(0.0, |largest, rho| largest.max(rho.max_abs()))
+    fn largest_reflectance(&self) -> S::Scalar {
+        self.reflectance.iter().fold(S::Scalar::ZERO, |largest, rho| largest.max(rho.max_abs()))
     }
 }
 
@@ -59,7 +76,7 @@ mod tests {
     use super::*;
     use crate::spectrum::Bands;
 
-    type Solver<S> = fn(&System<S, Dense>, &mut [S], &mut [S], f32, usize) -> usize;
+    type Solver<S> = fn(&System<S, Dense<f32>>, &mut [S], &mut [S], f32, usize) -> usize;
 
     /// Form factors between the walls of a cube: 0.1998 to the opposite wall, the rest shared by the other four.
     fn cube() -> [f32; 36] {
@@ -72,7 +89,7 @@ mod tests {
         })
     }
 
-    fn solvers<S: Spectrum>() -> [Solver<S>; 3] {
+    fn solvers<S: Spectrum<Scalar = f32>>() -> [Solver<S>; 3] {
         [
             |system, b, scratch, tolerance, sweeps| jacobi(system, b, scratch, tolerance, sweeps),
             |system, b, _, tolerance, sweeps| gauss_seidel(system, b, tolerance, sweeps),
@@ -84,7 +101,11 @@ mod tests {
     #[test]
     fn white_furnace_from_any_start() {
         let factors = cube();
-        let system = System { exitance: &[1.0; 6], reflectance: &[0.75; 6], form_factors: &Dense(&factors) };
+        let system = System {
+            exitance: &[1.0; 6],
+            reflectance: &[0.75; 6],
+            form_factors: &Dense { count: 6, factors: &factors },
+        };
         for solve in solvers::<f32>() {
             for start in [0.0, 3.0, 100.0] {
                 let (mut b, mut scratch) = ([start; 6], [0.0; 12]);
@@ -101,11 +122,16 @@ mod tests {
         let reflectance: [Bands<3>; 6] = core::array::from_fn(|i| Bands([0.1, 0.5, 0.9 - 0.1 * i as f32]));
         let exitance: [Bands<3>; 6] = core::array::from_fn(|i| Bands([i as f32, 1.0, (i == 2) as u8 as f32]));
         let mut together = [Bands::<3>::default(); 6];
-        let system = System { exitance: &exitance, reflectance: &reflectance, form_factors: &Dense(&factors) };
+        let system = System {
+            exitance: &exitance,
+            reflectance: &reflectance,
+            form_factors: &Dense { count: 6, factors: &factors },
+        };
         gauss_seidel(&system, &mut together, 1e-7, 400);
         for band in 0..3 {
             let (e, rho) = (exitance.map(|e| e.0[band]), reflectance.map(|rho| rho.0[band]));
-            let system = System { exitance: &e, reflectance: &rho, form_factors: &Dense(&factors) };
+            let system =
+                System { exitance: &e, reflectance: &rho, form_factors: &Dense { count: 6, factors: &factors } };
             for solve in solvers::<f32>() {
                 let (mut b, mut scratch) = ([0.0; 6], [0.0; 12]);
                 solve(&system, &mut b, &mut scratch, 1e-7, 400);
@@ -121,7 +147,7 @@ mod tests {
         let system = System {
             exitance: &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
             reflectance: &[0.9; 6],
-            form_factors: &Dense(&factors),
+            form_factors: &Dense { count: 6, factors: &factors },
         };
         let [jacobi, gauss_seidel, chebyshev] =
             solvers::<f32>().map(|solve| solve(&system, &mut [0.0; 6], &mut [0.0; 12], 1e-4, 1000));

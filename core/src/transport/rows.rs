@@ -3,7 +3,6 @@
 use alloc::vec::Vec;
 
 use crate::solve::FormFactors;
-use crate::spectrum::Spectrum;
 
 /// Where a ray from a patch ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -106,11 +105,12 @@ impl Rows {
 }
 
 impl FormFactors for Rows {
-    fn receive<S: Spectrum>(&self, i: usize, radiosity: &[S]) -> S {
+    type Scalar = f32;
+
+    fn row(&self, i: usize, mut entry: impl FnMut(usize, f32)) {
+        let share = 1.0 / self.rows[i].total.max(1) as f32;
         let entries = &self.entries[self.starts[i]..self.starts[i + 1]];
-        let sum =
-            entries.iter().fold(S::default(), |sum, entry| sum + radiosity[entry.patch as usize] * entry.count as f32);
-        sum * (1.0 / self.rows[i].total.max(1) as f32)
+        entries.iter().for_each(|&Entry { patch, count }| entry(patch as usize, count as f32 * share));
     }
 }
 
@@ -123,8 +123,8 @@ mod tests {
         let mut ends = [End::Patch(3), End::Sky, End::Patch(1), End::Patch(3), End::Black, End::Patch(3)];
         let rows: Rows = [RowCounts::new(&mut ends), RowCounts::new(&mut [])].into_iter().collect();
         assert_eq!(rows.row(0), Row { sky: 1, black: 1, total: 6 });
-        assert!((rows.receive(0, &[0.0, 2.0, 0.0, 4.0]) - (2.0 + 3.0 * 4.0) / 6.0).abs() < 1e-6);
-        assert_eq!(rows.receive(1, &[1.0; 4]), 0.0);
+        assert!((rows.receive(0, &[0.0_f32, 2.0, 0.0, 4.0]) - (2.0 + 3.0 * 4.0) / 6.0).abs() < 1e-6);
+        assert_eq!(rows.receive(1, &[1.0_f32; 4]), 0.0);
         assert_eq!(rows.closure_error(), 0.0);
     }
 }

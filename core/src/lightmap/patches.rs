@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 
 use glam::{IVec3, Vec3};
 
+use super::{BLOCK, NONE, Texels};
 use crate::geometry::{Hit, Sobol, normal_and_area};
-use crate::lightmap::{BLOCK, NONE, Texels};
 use crate::math;
 use crate::scene::World;
 

@@ -1,0 +1,71 @@
+//! Float functions: those of std, or those of libm where the bits must be the same on every target.
+//!
+//! The functions here are those of `f32`. What has to be exact is generic over [`Real`], `f32` or `f64`, and over
+//! [`Vector`], glam's `Vec3` or `DVec3`.
+
+mod real;
+mod vector;
+
+pub use real::*;
+pub use single::*;
+pub use vector::*;
+
+#[cfg(any(feature = "libm", not(feature = "std")))]
+mod single {
+    pub use libm::{
+        acosf as acos, asinf as asin, atan2f as atan2, atanf as atan, ceilf as ceil, cosf as cos, exp2f as exp2,
+        expf as exp, floorf as floor, log2f as log2, logf as ln, powf, roundf as round, sinf as sin, sqrtf as sqrt,
+        tanf as tan,
+    };
+
+    /// Sine and cosine of an angle in radians.
+    pub fn sin_cos(x: f32) -> (f32, f32) {
+        (sin(x), cos(x))
+    }
+}
+
+#[cfg(any(feature = "libm", not(feature = "std")))]
+mod double {
+    pub use libm::{acos, asin, atan, atan2, cos, exp, floor, log as ln, sin, sqrt, tan};
+}
+
+#[cfg(all(feature = "std", not(feature = "libm")))]
+macro_rules! of_std {
+    ($real:ident: $($name:ident),*) => {
+        $(
+            #[doc = concat!("`", stringify!($real), "::", stringify!($name), "`")]
+            #[inline]
+            pub fn $name(x: $real) -> $real {
+                x.$name()
+            }
+        )*
+
+        /// The angle of the point `(x, y)`.
+        #[inline]
+        pub fn atan2(y: $real, x: $real) -> $real {
+            y.atan2(x)
+        }
+    };
+}
+
+#[cfg(all(feature = "std", not(feature = "libm")))]
+mod single {
+    of_std!(f32: acos, asin, atan, ceil, cos, exp2, exp, floor, log2, ln, round, sin, sqrt, tan);
+
+    /// `f32::powf`
+    #[inline]
+    pub fn powf(x: f32, exponent: f32) -> f32 {
+        x.powf(exponent)
+    }
+
+    /// `f32::sin_cos`
+    #[inline]
+    pub fn sin_cos(x: f32) -> (f32, f32) {
+        x.sin_cos()
+    }
+}
+
+#[cfg(all(feature = "std", not(feature = "libm")))]
+mod double {
+    of_std!(f64: acos, asin, atan, cos, exp, floor, ln, sin, sqrt, tan);
+}
