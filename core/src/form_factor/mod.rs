@@ -1,8 +1,13 @@
 //! Which share of the light that leaves one place reaches another, by geometry alone.
 
+mod boundary;
+mod contour;
+mod edge_pair;
 mod point;
 mod polygon;
+mod quadrature;
 
+pub use contour::*;
 pub use point::*;
 pub use polygon::*;
 
