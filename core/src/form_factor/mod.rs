@@ -2,12 +2,15 @@
 
 mod boundary;
 mod contour;
+mod cubature;
+mod double_integral;
 mod edge_pair;
 mod point;
 mod polygon;
 mod quadrature;
 
 pub use contour::*;
+pub use double_integral::*;
 pub use point::*;
 pub use polygon::*;
 
