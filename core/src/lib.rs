@@ -28,6 +28,7 @@
 //! | `progress`, `parallel` | a running bake, seen and stopped; work cut into chunks |
 //! | `material` | reflectance, exitance, alpha, textures |
 //! | [`geometry`] | triangles, rays, directions, Sobol points, the tree |
+//! | [`composite`] | triangles to pixels, with a depth buffer |
 //! | [`form_factor`] | the share of the light of one surface that reaches another |
 //! | `light` | the irradiance that a lamp gives at a point |
 //! | [`solve`] | the radiosity equation `b = e + rho F b` |
@@ -54,7 +55,7 @@
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | none | `math`, `spectrum`, `geometry`, `form_factor`, `solve` on slices: neither heap nor operating system |
+//! | none | `math`, `spectrum`, `geometry`, `composite`, `form_factor`, `solve` on slices: neither heap nor operating system |
 //! | `alloc` | all other modules |
 //! | `std` | the clock and the float functions of the system |
 //! | `bvh`, `parallel`, `unwrap` | the tree of obvhs, the threads of rayon, coordinates for meshes that have none |
@@ -76,6 +77,7 @@ pub mod parallel;
 #[cfg(feature = "alloc")]
 pub mod material;
 pub mod geometry;
+pub mod composite;
 pub mod form_factor;
 #[cfg(feature = "alloc")]
 pub mod light;
