@@ -1,5 +1,9 @@
 //! What is carried by light: grey, RGB, or any number of wavelength bands, each on its own.
 
+mod cornell;
+
+pub use cornell::*;
+
 use core::ops::{Add, AddAssign, Mul, Sub};
 
 use glam::{DVec3, Vec3};
