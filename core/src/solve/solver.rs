@@ -72,7 +72,7 @@ impl<S: Spectrum> Accuracy<S> {
     /// Whether the error is at most `tolerance` times the brightest patch, in each band.
     pub fn is_within(&self, tolerance: S::Scalar) -> bool {
         let (met, missed) = (S::Scalar::ZERO, S::Scalar::ONE);
-        let misses = |error, most| if error <= most { met } else { missed };
+        let misses = |error, most| if error <= most && error < S::Scalar::INFINITY { met } else { missed };
         self.error.zip(self.largest * tolerance, misses) == S::default()
     }
 }

@@ -55,9 +55,12 @@ impl<'a, S: Spectrum> Southwell<'a, S> {
             power += unshot * area;
             absorption += (one - rho) * area;
         }
-        power.zip(absorption, |power, absorption| {
-            if absorption > S::Scalar::ZERO { power / absorption } else { S::Scalar::ZERO }
-        })
+        power.zip(
+            absorption,
+            |power, absorption| {
+                if absorption > S::Scalar::ZERO { power / absorption } else { S::Scalar::ZERO }
+            },
+        )
     }
 
     /// Makes the start, which counts as shot, known to all: a sweep, but for the start zero.
