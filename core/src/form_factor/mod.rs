@@ -1,8 +1,16 @@
 //! Which share of the light that leaves one place reaches another, by geometry alone.
 
+mod boundary;
+mod contour;
+mod cubature;
+mod double_integral;
+mod edge_pair;
 mod point;
 mod polygon;
+mod quadrature;
 
+pub use contour::*;
+pub use double_integral::*;
 pub use point::*;
 pub use polygon::*;
 
