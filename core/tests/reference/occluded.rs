@@ -54,8 +54,8 @@ const fn wall(from: [f64; 2], to: [f64; 2]) -> [Point; 4] {
 
 const UNIT: [f64; 2] = [0.0, 1.0];
 const HALF: [f64; 2] = [0.25, 0.75];
-/// So long that its ends are not seen at the precision of the values.
-const ENDLESS: [f64; 2] = [-1e6, 1e6];
+/// So long that its ends change values by less than 1e-12: they count with the inverse cube of their distance.
+const ENDLESS: [f64; 2] = [-1e4, 1e4];
 
 const FLOOR: &[Point] = &up(UNIT, UNIT, 0.0);
 const CEILING: &[Point] = &down(UNIT, UNIT, 1.0);
@@ -155,7 +155,7 @@ pub const PAIRS: &[OccludedPair] = &[
 ];
 
 const STRIP: &[Point] = &down([-0.5, 0.5], ENDLESS, 2.0);
-const HALF_PLANE: &[Point] = &up([-1e6, 0.0], ENDLESS, 1.0);
+const HALF_PLANE: &[Point] = &up([-1e4, 0.0], ENDLESS, 1.0);
 
 /// An endless strip 1 wide at height 2, half of it behind an endless half-plane at height 1.
 const fn penumbra(name: &'static str, x: f64, factor: f64) -> OccludedPoint {
