@@ -6,6 +6,7 @@
 mod chebyshev;
 mod gauss_seidel;
 mod jacobi;
+mod sparse;
 
 pub use chebyshev::*;
 pub use gauss_seidel::*;
