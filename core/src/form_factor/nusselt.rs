@@ -12,7 +12,8 @@
 
 use glam::{Vec2, Vec3};
 
-use super::samples::{add, double_area, finish, point_on_polygon};
+use super::samples::{add, finish, point_on_polygon};
+use super::shadow::area_vector;
 use super::{Bins, Estimate, Samples};
 use crate::geometry::{Hit, Occluders, Ray, cosine_direction};
 use crate::math::{Real, Vector};
@@ -127,7 +128,7 @@ pub fn nusselt_rays<R: Real>(
 
 /// The points of a convex polygon, for [`nusselt_rays`]: lifted to its front by `2^-20` of its largest coordinate.
 pub fn polygon_sender(polygon: &[Vec3]) -> impl Fn(Vec2) -> [Vec3; 2] {
-    let normal = double_area(polygon).normalize_or_zero();
+    let normal = area_vector(polygon.iter().copied()).normalize_or_zero();
     let size = polygon.iter().fold(0.0_f32, |size, corner| size.max(corner.abs().max_element()));
     let lift = normal * (size / 1_048_576.0);
     move |square| [point_on_polygon(polygon, square.to_array()) + lift, normal]

@@ -66,15 +66,6 @@ pub(super) fn point_on_polygon<V: Vector>(polygon: &[V], square: [f32; 2]) -> V 
     polygon[0] * (one - root) + polygon[k] * (root * (one - y)) + polygon[k + 1] * (root * y)
 }
 
-/// Normal of a planar polygon, as long as twice its area.
-pub(super) fn double_area<V: Vector>(polygon: &[V]) -> V {
-    let mut sum = V::default();
-    for k in 2..polygon.len() {
-        sum += (polygon[k - 1] - polygon[0]).cross(polygon[k] - polygon[0]);
-    }
-    sum
-}
-
 #[cfg(test)]
 mod tests {
     use glam::DVec3;

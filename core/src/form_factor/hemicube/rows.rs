@@ -4,7 +4,8 @@ use core::f32::consts::TAU;
 
 use glam::Vec3;
 
-use super::super::samples::{add, double_area, finish, point_on_polygon};
+use super::super::samples::{add, finish, point_on_polygon};
+use super::super::shadow::area_vector;
 use super::super::{Bins, Estimate, Samples};
 use super::{Hemicube, VOID};
 use crate::math::{Real, Vector};
@@ -43,7 +44,7 @@ impl Hemicube<'_> {
         scratch: &mut [Estimate<V::Scalar>],
     ) -> Bins<V::Scalar> {
         row.fill(Estimate::default());
-        let normal = double_area(polygon).normalize_or_zero();
+        let normal = area_vector(polygon.iter().copied()).normalize_or_zero();
         if normal == V::default() {
             return Bins { sky: V::Scalar::ONE, void: V::Scalar::ZERO };
         }
@@ -92,7 +93,7 @@ enum Facing {
 /// Which side of a patch a point sees. Within the rounding of the coordinates of its plane it sees none.
 fn facing<V: Vector>(point: V, patch: &[V]) -> Facing {
     let Some(&first) = patch.first() else { return Facing::Edge };
-    let normal = double_area(patch).normalize_or_zero();
+    let normal = area_vector(patch.iter().copied()).normalize_or_zero();
     let height = (point - first).dot(normal);
     let size = patch.iter().fold(point.length(), |size, &corner| size.max(corner.length()));
     let rounding = V::Scalar::from_f64(8.0) * V::Scalar::EPSILON * size;
