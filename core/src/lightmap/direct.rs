@@ -112,9 +112,8 @@ impl<O: Occluders> Direct<'_, O> {
             let from = point(k);
             let ray = light.shadow_ray(sequence.square(k), from, texel.normal);
             if ray.weight > 0.0 && ray.direction.dot(flat) > 0.0 {
-                let end = if ray.end == 1.0 { 1.0 - 1e-4 } else { ray.end };
-                arrived += ray.weight
-                    * self.tracer.visibility(&self.tracer.leave(texel.triangle, from, flat, ray.direction, end));
+                let visibility = self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray));
+                arrived += ray.weight * visibility;
                 self.tracer.count(1);
             }
             all += ray.weight.max(0.0);
