@@ -59,7 +59,7 @@ pub(super) fn point_on_polygon<V: Vector>(polygon: &[V], square: [f32; 2]) -> V 
     let mut rest = x * (1..=last).map(area).sum::<V::Scalar>();
     let mut k = 1;
     while k < last && rest > area(k) {
-        rest = rest - area(k);
+        rest -= area(k);
         k += 1;
     }
     let root = if area(k) > zero { (rest / area(k)).clamp(zero, one).sqrt() } else { zero };

@@ -103,7 +103,7 @@ fn check<M: Matrix>(areas: &[M::Scalar], matrix: &M) -> Result<(), MatrixError> 
 
 fn check_areas<R: Real>(areas: &[R], count: usize) -> Result<(), MatrixError> {
     check_length("areas", areas.len(), count)?;
-    match areas.iter().position(|&area| !(area > R::ZERO && area < R::INFINITY)) {
+    match areas.iter().position(|&area| area == R::ZERO || !is_share(area)) {
         Some(index) => Err(MatrixError::Area { index }),
         None => Ok(()),
     }
