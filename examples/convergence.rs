@@ -14,9 +14,7 @@ const FILE: &str = "convergence.svg";
 const SIDE: usize = 7;
 const COUNT: usize = 6 * SIDE * SIDE;
 const TOLERANCE: f64 = 1e-6;
-const OMEGA: f64 = 1.2;
-const NAMES: [&str; 6] =
-    ["Jacobi", "Gauss-Seidel", "over-relaxation, 1.2", "shooting", "Chebyshev", "conjugate gradients"];
+const NAMES: [&str; 6] = ["Jacobi", "Gauss-Seidel", "over-relaxation", "shooting", "Chebyshev", "conjugate gradients"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let factors = form_factors(&patches());
@@ -72,7 +70,7 @@ fn sweeps(factors: &[f64], rho: f64) -> [f64; 6] {
     [
         solve(&mut Jacobi::new(&mut scratch)),
         solve(&mut GaussSeidel),
-        solve(&mut OverRelaxation { omega: OMEGA }),
+        solve(&mut OverRelaxation::new(&system)),
         solve(&mut Southwell::new(&system, &areas, &mut scratch)) / COUNT as f64,
         solve(&mut Chebyshev::new(&system, &mut scratch)),
         solve(&mut ConjugateGradient::new(&system, &areas, &mut scratch)),

@@ -25,10 +25,10 @@
 //! |---|---|---|---|
 //! | [`jacobi`] | 1 | | 6, 22, 125 |
 //! | [`gauss_seidel`] | 0 | patches in an order | 5, 14, 71 |
-//! | [`over_relaxation`] by 1.2 | 0 | patches in an order | 5, 10, 51 |
-//! | [`southwell`] | 1 | areas; one row for each shot | 3, 13, 70 |
+//! | [`over_relaxation`] | 0 | patches in an order; reciprocity | 4, 8, 20 |
+//! | [`southwell`] | 1 | areas; reciprocity; one row for each shot | 3, 13, 70 |
 //! | [`chebyshev`] | 2 | | 5, 10, 25 |
-//! | [`conjugate_gradient`] | 3 | areas; exact reciprocity; sums over all patches | 4, 6, 9 |
+//! | [`conjugate_gradient`] | 3 | areas; reciprocity; sums over all patches | 4, 6, 9 |
 //!
 //! The picture is from `examples/convergence.rs`: a closed cube of 294 patches, lit by one of them, until the error is
 //! certainly below 1e-6. Dashed is what theory says: `ln 1e-6 / ln rho` for Jacobi, and
@@ -43,7 +43,8 @@
 //! of rays, which obey reciprocity only up to noise: measured on rooms with hundreds of small boxes and `rho` 0.98,
 //! conjugate gradients come to an error of 1e-3 in half the sweeps (19 to 25 against 42 to 56) and do not reach 1e-5
 //! at all, where Chebyshev takes 68 to 103. Nor does it sum over patches, so that all rows can run in parallel with the
-//! same bits for any number of threads. Shooting shows most of the light first: its first shots are those of the
+//! same bits for any number of threads. On one core, and without memory to spare, over-relaxation by
+//! [`OverRelaxation::new`] is as fast. Shooting shows most of the light first: its first shots are those of the
 //! lamps, and its ambient term ([`Southwell::ambient`]) stands in for what is still under way.
 //!
 //! # When it is done
