@@ -67,6 +67,7 @@ mod jacobi;
 mod over_relaxation;
 mod solver;
 mod southwell;
+mod sparse;
 mod start;
 mod system;
 
