@@ -23,7 +23,8 @@ pub fn point_to_disc<V: Vector>(point: V, normal: V, disc: &Disc<V>) -> V::Scala
     let zero = V::Scalar::ZERO;
     let to_center = disc.center - point;
     let height = -to_center.dot(disc.normal);
-    if !(height > zero) {
+    let is_in_front = height > zero;
+    if !is_in_front {
         return zero;
     }
     let across = to_center + disc.normal * height;

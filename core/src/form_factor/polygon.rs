@@ -38,7 +38,7 @@ fn is_in_front<V: Vector>(point: V, polygon: &[V]) -> bool {
     let mut from = V::default();
     for &corner in others {
         let to = corner - first;
-        normal = normal + from.cross(to);
+        normal += from.cross(to);
         from = to;
     }
     let to_point = point - first;
