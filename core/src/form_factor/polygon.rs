@@ -51,7 +51,7 @@ fn is_in_front<V: Vector>(point: V, polygon: &[V]) -> bool {
 /// The edges that close the polygon at the horizon lie on one line there, so that their angles add up to those of the
 /// points where the boundary rises less those where it sets, in any order.
 #[inline]
-fn lambert_sum<V: Vector>(point: V, normal: V, polygon: &[V]) -> V::Scalar {
+pub(super) fn lambert_sum<V: Vector>(point: V, normal: V, polygon: &[V]) -> V::Scalar {
     let zero = V::Scalar::ZERO;
     let Some(&last) = polygon.last() else { return zero };
     let mut sum = zero;

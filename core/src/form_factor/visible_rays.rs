@@ -6,7 +6,7 @@ use crate::geometry::{Occluders, Ray, Sobol};
 use crate::math;
 
 use super::shadow::area_vector;
-use super::{Estimate, visible_polygon_to_polygon};
+use super::{Estimate, polygon_to_polygon};
 
 /// Independent sequences, from whose spread the error is known.
 const SEQUENCES: u32 = 16;
@@ -33,9 +33,9 @@ pub fn visible_polygon_to_polygon_by_rays(
     occluders: &impl Occluders,
     accuracy: f32,
 ) -> Estimate<f32> {
-    let unoccluded = visible_polygon_to_polygon(a, b, &[], 1e-6);
-    if !(unoccluded.value > 0.0) {
-        return unoccluded;
+    let unoccluded = polygon_to_polygon(a, b);
+    if unoccluded <= 0.0 {
+        return Estimate::default();
     }
     let ends = [a, b].map(|polygon| (polygon, area_vector(polygon.iter().copied()).normalize_or_zero()));
     let mut sums = [Sum::default(); SEQUENCES as usize];
@@ -47,9 +47,9 @@ pub fn visible_polygon_to_polygon_by_rays(
         }
         let (share, spread) = visible_share(&sums);
         let one_ray = 1.0 / (end * SEQUENCES) as f32;
-        let error = unoccluded.value * spread.max(one_ray) + unoccluded.error;
+        let error = unoccluded * spread.max(one_ray);
         if error <= accuracy || end >= MOST_RAYS {
-            return Estimate { value: unoccluded.value * share, error };
+            return Estimate { value: unoccluded * share, error };
         }
         (start, end) = (end, 2 * end);
     }
