@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::boundary::Plane;
 use super::edge_pair::edge_pair;
-use super::quadrature::{GAUSS_4, GAUSS_8, Gauss};
+use super::quadrature::{GAUSS_4, GAUSS_6, Gauss};
 use crate::math::{Real, Vector};
 
 /// Share of the power leaving the front of polygon `a` that lands on the front of polygon `b`, with nothing between:
@@ -51,7 +51,7 @@ impl Far {
         let between = a.center - b.center;
         let squared = between.length_squared();
         let (distance, reach) = (Real::sqrt(squared), a.radius + b.radius);
-        let rule = if distance > 12.0 * reach { GAUSS_4 } else { GAUSS_8 };
+        let rule = if distance > 12.0 * reach { GAUSS_4 } else { GAUSS_6 };
         (distance > 6.0 * reach).then_some(Self { centers: [a.center, b.center], between, squared, rule })
     }
 
@@ -82,14 +82,21 @@ impl Far {
 /// `ln(1 + z) - z` for `|z| <= 0.37`, to full relative precision: the series of `2 atanh w` with `w = z / (2 + z)`.
 #[inline]
 fn ln_1p_less_linear(z: f64) -> f64 {
+    const INVERSE_ODD: [f64; 10] = [
+        1.0 / 21.0,
+        1.0 / 19.0,
+        1.0 / 17.0,
+        1.0 / 15.0,
+        1.0 / 13.0,
+        1.0 / 11.0,
+        1.0 / 9.0,
+        1.0 / 7.0,
+        1.0 / 5.0,
+        1.0 / 3.0,
+    ];
     let w = z / (2.0 + z);
     let squared = w * w;
-    let mut sum = 0.0;
-    let mut k = 21.0;
-    while k > 2.0 {
-        sum = sum * squared + 1.0 / k;
-        k -= 2.0;
-    }
+    let sum = INVERSE_ODD.iter().fold(0.0, |sum, coefficient| sum * squared + coefficient);
     w * (2.0 * squared * sum - z)
 }
 
@@ -98,7 +105,6 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::math::Real;
 
     fn square(corner: DVec3, u: DVec3, v: DVec3) -> [DVec3; 4] {
         [corner, corner + u, corner + u + v, corner + v]

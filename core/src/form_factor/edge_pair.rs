@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::quadrature::{GAUSS_4, GAUSS_8, GAUSS_16, Gauss};
+use super::quadrature::{GAUSS_4, GAUSS_6, GAUSS_8, GAUSS_12, GAUSS_16, Gauss};
 use crate::math::Real;
 
 /// Edges are halved at most so often on the way to where they nearly meet.
@@ -49,7 +49,7 @@ struct Approach {
 /// `int int ln(|p - q| / reach) dp . dq` over the points `p` of one edge and `q` of another.
 ///
 /// Closed forms where the lines of the edges are parallel or the edges touch. Else the inner integral is in closed form
-/// and the outer one a Gauss sum, of as many points as the distance of the nearest singularity asks for 12 digits;
+/// and the outer one a Gauss sum, of as many points as the distance of the nearest singularity asks for 11 digits;
 /// where that is too near, the edge is halved.
 pub fn edge_pair(p: [DVec3; 2], q: [DVec3; 2], reach: f64) -> f64 {
     let (e, f) = (Edge::new(p[0], p[1]), Edge::new(q[0], q[1]));
@@ -72,6 +72,9 @@ impl Pair {
     /// `int int ln(|p - q| / reach) ds dt`.
     fn integral(self, e: &Edge, f: &Edge, depth: u32) -> f64 {
         let approach = approach(e, f, self.reach);
+        if approach.is_none() && f.length <= 8.0 * e.length && length(f.start - e.start) <= 16.0 * e.length {
+            return self.parallel(e, f);
+        }
         if let Some(rule) = rule(e, f, approach) {
             return e.length * rule.mean(|s| self.over_edge(e.at(s * e.length), f));
         }
@@ -188,7 +191,7 @@ fn touch(e: &Edge, f: &Edge, Approach { at: [s, t], distance, .. }: Approach) ->
     distance <= slack && s >= -slack && s <= e.length + slack && t >= -slack && t <= f.length + slack
 }
 
-/// The Gauss rule for 12 digits of the integral over `e` of the closed form over `f`, if 16 points suffice.
+/// The Gauss rule for 11 digits of the integral over `e` of the closed form over `f`, if 16 points suffice.
 ///
 /// That function is singular at the ends of `f` and, seen as one of a complex variable, where the lines approach each
 /// other inside `f`. The error of `n` points falls with `(x + sqrt(x^2 - 1))^-2n`, where `x` is the sum of the distances
@@ -206,9 +209,11 @@ fn rule(e: &Edge, f: &Edge, approach: Option<Approach>) -> Option<Gauss> {
         nearest = nearest.min(radius(s) + radius(s - e.length));
     }
     match nearest / e.length {
-        x if x > 15.8 => Some(GAUSS_4),
-        x if x > 2.9 => Some(GAUSS_8),
-        x if x > 1.4 => Some(GAUSS_16),
+        x if x > 11.9 => Some(GAUSS_4),
+        x if x > 4.2 => Some(GAUSS_6),
+        x if x > 2.54 => Some(GAUSS_8),
+        x if x > 1.62 => Some(GAUSS_12),
+        x if x > 1.34 => Some(GAUSS_16),
         _ => None,
     }
 }

@@ -1,8 +1,11 @@
 //! Which share of the light that leaves one place reaches another, by geometry alone.
 
+mod among;
 mod boundary;
 mod contour;
 mod critical;
+mod cubature;
+mod double_integral;
 mod edge_pair;
 mod point;
 mod polygon;
@@ -14,7 +17,9 @@ mod visible;
 mod visible_discs;
 mod visible_rays;
 
+pub use among::polygon_to_polygon_among;
 pub use contour::*;
+pub use double_integral::*;
 pub use point::*;
 pub use polygon::*;
 pub use shadow::visible_point_to_polygon;

@@ -13,10 +13,11 @@ use crate::math::{Real, Vector};
 /// Lambert's formula `F = 1/2pi sum theta_i (n . G_i)`, as in Baum, Rushmeier and Winget 1989; it is the projection of
 /// the spherical polygon onto the disc below it, which Nusselt drew.
 pub fn point_to_polygon<V: Vector>(point: V, normal: V, polygon: &[V]) -> V::Scalar {
-    if is_in_front(point, polygon) {
-        (-lambert_sum(point, normal, polygon)).clamp(V::Scalar::ZERO, V::Scalar::ONE)
-    } else {
-        V::Scalar::ZERO
+    match polygon.last() {
+        Some(&last) if is_in_front(point, polygon) => {
+            (-lambert_sum(point, normal, last, polygon.iter().copied())).clamp(V::Scalar::ZERO, V::Scalar::ONE)
+        }
+        _ => V::Scalar::ZERO,
     }
 }
 
@@ -27,7 +28,7 @@ pub fn point_to_polygon<V: Vector>(point: V, normal: V, polygon: &[V]) -> V::Sca
 /// The formula is that of [`point_to_polygon`].
 #[inline]
 pub fn point_to_triangle(point: Vec3, normal: Vec3, triangle: &[Vec3; 3]) -> f32 {
-    lambert_sum(point, normal, triangle).abs().min(1.0)
+    lambert_sum(point, normal, triangle[2], triangle.iter().copied()).abs().min(1.0)
 }
 
 /// Whether the point is on the side from which the polygon runs counter-clockwise, by more than rounding.
@@ -49,16 +50,15 @@ fn is_in_front<V: Vector>(point: V, polygon: &[V]) -> bool {
 /// their plane. Negative for a polygon that runs counter-clockwise seen from the point.
 ///
 /// The edges that close the polygon at the horizon lie on one line there, so that their angles add up to those of the
-/// points where the boundary rises less those where it sets, in any order.
+/// points where the boundary rises less those where it sets, in any order. `last` is the last one of the corners.
 #[inline]
-pub(super) fn lambert_sum<V: Vector>(point: V, normal: V, polygon: &[V]) -> V::Scalar {
+pub(super) fn lambert_sum<V: Vector>(point: V, normal: V, last: V, corners: impl Iterator<Item = V>) -> V::Scalar {
     let zero = V::Scalar::ZERO;
-    let Some(&last) = polygon.last() else { return zero };
     let mut sum = zero;
     let mut crossing = None;
     let (mut previous, mut from) = (last, last - point);
     let mut from_height = from.dot(normal);
-    for &corner in polygon {
+    for corner in corners {
         let (step, to) = (corner - previous, corner - point);
         let to_height = to.dot(normal);
         if from_height > zero && to_height > zero {

@@ -112,7 +112,8 @@ impl<V: Vector> Pyramid<V> {
         let mut facing = area_vector(corners.clone()).normalize_or_zero();
         let distance = corners.clone().fold(zero, |sum, corner| sum + facing.dot(corner));
         let reach = corners.clone().fold(zero, |sum, corner| sum + corner.length());
-        if distance.abs() <= V::Scalar::from_f64(8.0) * V::Scalar::EPSILON * reach {
+        let is_beside = distance.abs() > V::Scalar::from_f64(8.0) * V::Scalar::EPSILON * reach;
+        if !is_beside {
             return None;
         }
         let above = corners.clone().map(|corner| base.normal.dot(corner) + base.height);
@@ -192,7 +193,9 @@ impl<V: Vector> Eye<V> {
             }
             return self.around(&pyramid, piece, blockers);
         }
-        -lambert_sum(V::default(), self.normal, piece)
+        piece
+            .last()
+            .map_or(V::Scalar::ZERO, |&last| -lambert_sum(V::default(), self.normal, last, piece.iter().copied()))
     }
 
     /// Lambert's sum over what further blockers leave of what one leaves: a piece for each of its planes.

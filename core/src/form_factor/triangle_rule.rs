@@ -25,19 +25,37 @@ const FINE: [Orbit; 5] = [
     (0.027_230_314_174_434_994_3, 0.008_394_777_409_957_605_34, 0.263_112_829_634_638_113),
 ];
 
-/// The mean of `f` over a triangle by 7 points and by 16 points.
-pub(super) fn means<V: Vector>(triangle: &[V; 3], f: impl Fn(V) -> V::Scalar) -> (V::Scalar, V::Scalar) {
-    let mean = |rule: &[Orbit]| rule.iter().map(|orbit| orbit_sum(triangle, orbit, &f)).sum();
-    (mean(&COARSE), mean(&FINE))
+/// What the points of both rules tell of a function over a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Means<R> {
+    /// The mean by 7 points.
+    pub(super) coarse: R,
+    /// The mean by 16 points.
+    pub(super) fine: R,
+    /// The largest value less the smallest one.
+    pub(super) range: R,
+}
+
+/// The means of `f` over a triangle.
+pub(super) fn means<V: Vector>(triangle: &[V; 3], f: impl Fn(V) -> V::Scalar) -> Means<V::Scalar> {
+    let (mut low, mut high) = (V::Scalar::INFINITY, -V::Scalar::INFINITY);
+    let mut tracked = |point| {
+        let value = f(point);
+        (low, high) = (low.min(value), high.max(value));
+        value
+    };
+    let mut mean = |rule: &[Orbit]| rule.iter().map(|orbit| orbit_sum(triangle, orbit, &mut tracked)).sum();
+    let (coarse, fine) = (mean(&COARSE), mean(&FINE));
+    Means { coarse, fine, range: high - low }
 }
 
 /// Weighted sum over the points that arise when the barycentric coordinates change places.
-fn orbit_sum<V: Vector>(triangle: &[V; 3], &(weight, a, b): &Orbit, f: impl Fn(V) -> V::Scalar) -> V::Scalar {
+fn orbit_sum<V: Vector>(triangle: &[V; 3], &(weight, a, b): &Orbit, f: &mut impl FnMut(V) -> V::Scalar) -> V::Scalar {
     let c = 1.0 - a - b;
     let is_symmetric = (b - c).abs() < 1e-12;
     let [u, v, w] = *triangle;
     let [a_, b_, c_] = [a, b, c].map(V::Scalar::from_f64);
-    let at = |u: V, v: V, w: V| f(u * a_ + v * b_ + w * c_);
+    let mut at = |u: V, v: V, w: V| f(u * a_ + v * b_ + w * c_);
     let sum = if is_symmetric && (a - b).abs() < 1e-12 {
         at(u, v, w)
     } else if is_symmetric {
@@ -60,7 +78,7 @@ mod tests {
         let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
         for (i, j) in (0..=8).flat_map(|i| (0..=8 - i).map(move |j| (i, j))) {
             let exact = 2.0 * factorial(i) * factorial(j) / factorial(i + j + 2);
-            let (coarse, fine) = means(&[DVec3::ZERO, DVec3::X, DVec3::Y], |p| p.x.powi(i) * p.y.powi(j));
+            let Means { coarse, fine, .. } = means(&[DVec3::ZERO, DVec3::X, DVec3::Y], |p| p.x.powi(i) * p.y.powi(j));
             assert!((fine - exact).abs() < 1e-16, "{i} {j}");
             assert_eq!((coarse - exact).abs() < 1e-16, i + j <= 5, "{i} {j}");
         }

@@ -27,9 +27,7 @@ pub fn visible_coaxial_discs<R: Real>(
         [radius_a, radius_b, distance, blocker_radius, blocker_distance].map(R::to_f64);
     let scale = distance / blocker_distance;
     let shadow_radius = blocker_radius * scale;
-    let visible = |r: f64| {
-        arc(r, radius_b, distance, PI) - lens([r, r * scale], [radius_b, shadow_radius], distance)
-    };
+    let visible = |r: f64| arc(r, radius_b, distance, PI) - lens([r, r * scale], [radius_b, shadow_radius], distance);
     let touch = |gap: f64| (gap.abs() / (scale - 1.0)).min(radius_a);
     let bounds = [0.0, touch(radius_b - shadow_radius), touch(radius_b + shadow_radius), radius_a];
     let part = |pair: &[f64]| tanh_sinh(pair[0], pair[1], |r| visible(r) * r);

@@ -1,9 +1,7 @@
 //! Polygon to polygon with visibility by rays: for many blockers and for those that are not convex.
 
-use glam::{Vec2, Vec3};
-
 use crate::geometry::{Occluders, Ray, Sobol};
-use crate::math;
+use crate::math::{Real, Vector};
 
 use super::shadow::area_vector;
 use super::{Estimate, polygon_to_polygon};
@@ -27,14 +25,14 @@ const END: f32 = 1e-4;
 /// of the pairs that see each other, times the exact factor without occluders, is the value, so that neither all
 /// visible nor all hidden leaves any noise. The error comes from 16 independent scramblings and is at least what a
 /// single ray would change. Where the polygons share an edge the weights vary without bound and the error falls slowly.
-pub fn visible_polygon_to_polygon_by_rays(
-    a: &[Vec3],
-    b: &[Vec3],
+pub fn visible_polygon_to_polygon_by_rays<V: Vector>(
+    a: &[V],
+    b: &[V],
     occluders: &impl Occluders,
-    accuracy: f32,
-) -> Estimate<f32> {
+    accuracy: V::Scalar,
+) -> Estimate<V::Scalar> {
     let unoccluded = polygon_to_polygon(a, b);
-    if unoccluded <= 0.0 {
+    if unoccluded <= V::Scalar::ZERO {
         return Estimate::default();
     }
     let ends = [a, b].map(|polygon| (polygon, area_vector(polygon.iter().copied()).normalize_or_zero()));
@@ -46,32 +44,33 @@ pub fn visible_polygon_to_polygon_by_rays(
             (start..end).for_each(|i| sum.add(&ends, &sequence, i, occluders));
         }
         let (share, spread) = visible_share(&sums);
-        let one_ray = 1.0 / (end * SEQUENCES) as f32;
-        let error = unoccluded * spread.max(one_ray);
+        let one_ray = 1.0 / f64::from(end * SEQUENCES);
+        let error = unoccluded * V::Scalar::from_f64(spread.max(one_ray));
         if error <= accuracy || end >= MOST_RAYS {
-            return Estimate { value: unoccluded * share, error };
+            return Estimate { value: unoccluded * V::Scalar::from_f64(share), error };
         }
         (start, end) = (end, 2 * end);
     }
 }
 
 /// A point of a convex polygon; equal areas of the square become equal areas of the polygon.
-fn point_of(polygon: &[Vec3], square: Vec2) -> Vec3 {
-    let area = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).length();
-    let mut rest = square.x * fan(polygon).map(area).sum::<f32>();
+fn point_of<V: Vector>(polygon: &[V], x: f32, y: f32) -> V {
+    let [x, y] = [x, y].map(|coordinate| V::Scalar::from_f64(f64::from(coordinate)));
+    let area = |[a, b, c]: [V; 3]| (b - a).cross(c - a).length();
+    let mut rest = x * fan(polygon).map(area).sum();
     for triangle in fan(polygon) {
         let part = area(triangle);
         let [a, b, c] = triangle;
         if rest < part {
-            return a + ((b - a).lerp(c - a, square.y)) * math::sqrt(rest / part);
+            return a + (b - a).lerp(c - a, y) * (rest / part).sqrt();
         }
-        rest -= part;
+        rest = rest - part;
     }
     polygon[0]
 }
 
 /// The triangles of a convex polygon.
-fn fan(polygon: &[Vec3]) -> impl Iterator<Item = [Vec3; 3]> {
+fn fan<V: Vector>(polygon: &[V]) -> impl Iterator<Item = [V; 3]> {
     polygon.windows(2).skip(1).map(|pair| [polygon[0], pair[0], pair[1]])
 }
 
@@ -84,18 +83,19 @@ struct Sum {
 
 impl Sum {
     /// Adds a pair of points of two polygons, which are given with their normals.
-    fn add(&mut self, ends: &[(&[Vec3], Vec3); 2], sequence: &Sobol, index: u32, occluders: &impl Occluders) {
+    fn add<V: Vector>(&mut self, ends: &[(&[V], V); 2], sequence: &Sobol, index: u32, occluders: &impl Occluders) {
         let [x, y, z, w] = core::array::from_fn(|dimension| sequence.dimension(index, dimension));
         let [(from, from_normal), (to, to_normal)] = *ends;
-        let origin = point_of(from, Vec2::new(x, y));
-        let direction = point_of(to, Vec2::new(z, w)) - origin;
+        let origin = point_of(from, x, y);
+        let direction = point_of(to, z, w) - origin;
         let (out, back) = (direction.dot(from_normal), -direction.dot(to_normal));
-        if out <= 0.0 || back <= 0.0 {
+        if !(out > V::Scalar::ZERO && back > V::Scalar::ZERO) {
             return;
         }
         let squared = direction.length_squared();
-        let weight = f64::from(out * back / (squared * squared));
+        let weight = (out * back / (squared * squared)).to_f64();
         self.all += weight;
+        let [origin, direction] = [origin, direction].map(|vector| vector.to_dvec3().as_vec3());
         let ray = Ray { origin, direction, end: 1.0 - END };
         if !occluders.any(&ray, |hit| hit.distance > END) {
             self.visible += weight;
@@ -104,12 +104,16 @@ impl Sum {
 }
 
 /// The visible share over all sequences, and its standard error from their spread.
-fn visible_share(sums: &[Sum; SEQUENCES as usize]) -> (f32, f32) {
+fn visible_share(sums: &[Sum; SEQUENCES as usize]) -> (f64, f64) {
     let all: f64 = sums.iter().map(|sum| sum.all).sum();
+    if all == 0.0 {
+        // No pair faces each other: nothing is known.
+        return (0.5, 0.5);
+    }
     let share = sums.iter().map(|sum| sum.visible).sum::<f64>() / all;
     // Of a ratio of means, by linearization.
     let squares: f64 = sums.iter().map(|sum| (sum.visible - share * sum.all) * (sum.visible - share * sum.all)).sum();
     let count = f64::from(SEQUENCES);
     let spread = squares * count / (count - 1.0) / (all * all);
-    (share as f32, math::sqrt(spread as f32))
+    (share, Real::sqrt(spread))
 }
