@@ -55,15 +55,15 @@ fn known_pairs_in_single_precision() {
 
 #[test]
 fn known_pairs_by_rays() {
-    for accuracy in [1e-3, 1e-4] {
+    for accuracy in [4e-3, 4e-4] {
         for case in PAIRS {
             let (a, b, blockers) = geometry::<Vec3>(case, 30.0);
             let blockers = slices(&blockers);
             let found = visible_polygon_to_polygon_by_rays(&a, &b, &PolygonOccluders(&blockers), accuracy);
             let error = (f64::from(found.value) - case.factor).abs();
             // The ends of the strips are seen at 3e-6.
-            assert!(error < 4.0 * f64::from(found.error) + 3e-6, "{}: {error:e}, {found:?}", case.name);
-            assert!(found.error < 1e-3, "{}: {found:?}", case.name);
+            assert!(error < f64::from(found.error) + 3e-6, "{}: {error:e}, {found:?}", case.name);
+            assert!(found.error < 4e-3, "{}: {found:?}", case.name);
         }
     }
 }
@@ -241,8 +241,8 @@ fn polygons_among_few_blockers() {
         assert!(found.value <= fewer.value + bound(fewer), "round {round}: {found:?} {fewer:?}");
         let finer = visible_polygon_to_polygon(&a, &b, &slices(&blockers), 1e-6);
         assert!((found.value - finer.value).abs() <= bound(finer), "round {round}: {found:?} {finer:?}");
-        let rays = visible_polygon_to_polygon_by_rays(&a, &b, &PolygonOccluders(&slices(&blockers)), 1e-3);
-        assert!((finer.value - rays.value).abs() < 4.0 * rays.error + 1e-6, "round {round}: {finer:?} {rays:?}");
+        let rays = visible_polygon_to_polygon_by_rays(&a, &b, &PolygonOccluders(&slices(&blockers)), 4e-3);
+        assert!((finer.value - rays.value).abs() < rays.error + 1e-6, "round {round}: {finer:?} {rays:?}");
         partly += u32::from(found.value > 0.02 * whole && found.value < 0.98 * whole);
     }
     assert!(partly > 10, "{partly} pairs are hidden in part");
@@ -289,8 +289,8 @@ fn the_method_that_fits() {
     ];
     let exact = polygon_to_polygon_among(&a, &b, &slices(&parts), 1e-8);
     assert!(exact.error < 1e-8);
-    let rays = polygon_to_polygon_among(&a, &b, &[&shape], 1e-4);
-    assert!(rays.error > 1e-6 && (exact.value - rays.value).abs() < 4.0 * rays.error, "{exact:?} {rays:?}");
+    let rays = polygon_to_polygon_among(&a, &b, &[&shape], 5e-4);
+    assert!(rays.error > 1e-6 && (exact.value - rays.value).abs() < rays.error, "{exact:?} {rays:?}");
     let aside: Polygon = shape.iter().map(|corner| *corner + DVec3::X * 2.0).collect();
     let free = polygon_to_polygon_among(&a, &b, &[&aside], 1e-3);
     assert!((free.value - polygon_to_polygon(&a, &b)).abs() < 1e-15 && free.error < 1e-12);
@@ -298,7 +298,7 @@ fn the_method_that_fits() {
     let many: Vec<Polygon> = (0..30).map(|_| random.parallelogram(0.2, 0.8, 0.08)).collect();
     let rays = polygon_to_polygon_among(&a, &b, &slices(&many), 1e-3);
     let exact = visible_polygon_to_polygon(&a, &b, &slices(&many), 1e-3);
-    assert!((exact.value - rays.value).abs() < 4.0 * rays.error + exact.error, "{exact:?} {rays:?}");
+    assert!((exact.value - rays.value).abs() < rays.error + exact.error, "{exact:?} {rays:?}");
 }
 
 #[test]

@@ -8,9 +8,9 @@ use super::shaft::Shaft;
 use super::{Estimate, polygon_to_polygon, visible_polygon_to_polygon, visible_polygon_to_polygon_by_rays};
 
 /// Blockers between two polygons up to which exact clipping is faster than rays at an accuracy of 1e-4.
-const FEW: usize = 4;
+const FEW: usize = 8;
 /// Rays reach no better accuracy than this in reasonable time.
-const FINE: f64 = 3e-5;
+const FINE: f64 = 1e-4;
 
 /// Share of the power leaving `a` that lands on `b` among planar `blockers` of any shape, by the method that fits.
 ///
@@ -18,8 +18,8 @@ const FINE: f64 = 3e-5;
 /// light from both sides. `accuracy` is the absolute error to aim for. In `[0, 1]`.
 ///
 /// - Nothing in the shaft between the two: [`polygon_to_polygon`], exact.
-/// - Convex blockers, at most 4 of them or an accuracy below 3e-5: [`visible_polygon_to_polygon`].
-/// - Otherwise [`visible_polygon_to_polygon_by_rays`], in single precision; the error is a standard error then.
+/// - Convex blockers, at most 8 of them or an accuracy below 1e-4: [`visible_polygon_to_polygon`].
+/// - Otherwise [`visible_polygon_to_polygon_by_rays`], in single precision; the error is four standard ones then.
 pub fn polygon_to_polygon_among<V: Vector>(
     a: &[V],
     b: &[V],

@@ -7,9 +7,13 @@ mod critical;
 mod cubature;
 mod double_integral;
 mod edge_pair;
+mod hemicube;
+mod matrix;
+mod nusselt;
 mod point;
 mod polygon;
 mod quadrature;
+mod samples;
 mod shadow;
 mod shaft;
 mod triangle_rule;
@@ -20,8 +24,12 @@ mod visible_rays;
 pub use among::polygon_to_polygon_among;
 pub use contour::*;
 pub use double_integral::*;
+pub use hemicube::*;
+pub use matrix::*;
+pub use nusselt::*;
 pub use point::*;
 pub use polygon::*;
+pub use samples::*;
 pub use shadow::visible_point_to_polygon;
 pub use visible::visible_polygon_to_polygon;
 pub use visible_discs::visible_coaxial_discs;
@@ -34,4 +42,13 @@ pub struct Estimate<R> {
     pub value: R,
     /// An estimate of `|value - true value|`, not negative.
     pub error: R,
+}
+
+/// What of a row of form factors does not land on a patch. With these a row sums to one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bins<R> {
+    /// The share that leaves the scene.
+    pub sky: R,
+    /// The share that lands on what reflects nothing, such as the backs of patches.
+    pub void: R,
 }

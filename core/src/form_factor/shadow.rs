@@ -193,9 +193,8 @@ impl<V: Vector> Eye<V> {
             }
             return self.around(&pyramid, piece, blockers);
         }
-        piece
-            .last()
-            .map_or(V::Scalar::ZERO, |&last| -lambert_sum(V::default(), self.normal, last, piece.iter().copied()))
+        let Some(&last) = piece.last() else { return V::Scalar::ZERO };
+        -lambert_sum(V::default(), self.normal, last, piece.iter().copied())
     }
 
     /// Lambert's sum over what further blockers leave of what one leaves: a piece for each of its planes.

@@ -3,6 +3,7 @@
 use crate::geometry::{Occluders, Ray, Sobol};
 use crate::math::{Real, Vector};
 
+use super::samples::{STANDARD_ERRORS, point_on_polygon};
 use super::shadow::area_vector;
 use super::{Estimate, polygon_to_polygon};
 
@@ -15,11 +16,11 @@ const MOST_RAYS: u32 = 1 << 16;
 /// Of the way from point to point at each end; what stands there is one of the two polygons.
 const END: f32 = 1e-4;
 
-/// Share of the power leaving `a` that lands on `b` past any `occluders`, with its standard error.
+/// Share of the power leaving `a` that lands on `b` past any `occluders`, with four standard errors.
 ///
 /// Both are convex, run counter-clockwise seen from their fronts and exchange light there only. They may be among the
-/// occluders: what a ray meets in the first or last 1e-4 of its way is ignored. `accuracy` is the standard error to aim
-/// for; rays are doubled until it is reached, up to a million, and 1024 at least.
+/// occluders: what a ray meets in the first or last 1e-4 of its way is ignored. `accuracy` is the error to aim for,
+/// [`STANDARD_ERRORS`] standard ones; rays are doubled until it is reached, up to a million, and 1024 at least.
 ///
 /// Pairs of points `p`, `q`, four dimensions of a Sobol sequence, are weighted with `cos cos / r^2`. The weighted share
 /// of the pairs that see each other, times the exact factor without occluders, is the value, so that neither all
@@ -45,33 +46,12 @@ pub fn visible_polygon_to_polygon_by_rays<V: Vector>(
         }
         let (share, spread) = visible_share(&sums);
         let one_ray = 1.0 / f64::from(end * SEQUENCES);
-        let error = unoccluded * V::Scalar::from_f64(spread.max(one_ray));
+        let error = unoccluded * V::Scalar::from_f64((STANDARD_ERRORS * spread).max(one_ray));
         if error <= accuracy || end >= MOST_RAYS {
             return Estimate { value: unoccluded * V::Scalar::from_f64(share), error };
         }
         (start, end) = (end, 2 * end);
     }
-}
-
-/// A point of a convex polygon; equal areas of the square become equal areas of the polygon.
-fn point_of<V: Vector>(polygon: &[V], x: f32, y: f32) -> V {
-    let [x, y] = [x, y].map(|coordinate| V::Scalar::from_f64(f64::from(coordinate)));
-    let area = |[a, b, c]: [V; 3]| (b - a).cross(c - a).length();
-    let mut rest = x * fan(polygon).map(area).sum();
-    for triangle in fan(polygon) {
-        let part = area(triangle);
-        let [a, b, c] = triangle;
-        if rest < part {
-            return a + (b - a).lerp(c - a, y) * (rest / part).sqrt();
-        }
-        rest = rest - part;
-    }
-    polygon[0]
-}
-
-/// The triangles of a convex polygon.
-fn fan<V: Vector>(polygon: &[V]) -> impl Iterator<Item = [V; 3]> {
-    polygon.windows(2).skip(1).map(|pair| [polygon[0], pair[0], pair[1]])
 }
 
 /// Weights of all pairs of one sequence, and of those that see each other.
@@ -86,8 +66,8 @@ impl Sum {
     fn add<V: Vector>(&mut self, ends: &[(&[V], V); 2], sequence: &Sobol, index: u32, occluders: &impl Occluders) {
         let [x, y, z, w] = core::array::from_fn(|dimension| sequence.dimension(index, dimension));
         let [(from, from_normal), (to, to_normal)] = *ends;
-        let origin = point_of(from, x, y);
-        let direction = point_of(to, z, w) - origin;
+        let origin = point_on_polygon(from, [x, y]);
+        let direction = point_on_polygon(to, [z, w]) - origin;
         let (out, back) = (direction.dot(from_normal), -direction.dot(to_normal));
         if !(out > V::Scalar::ZERO && back > V::Scalar::ZERO) {
             return;

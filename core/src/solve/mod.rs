@@ -8,6 +8,7 @@ mod jacobi;
 mod over_relaxation;
 mod solver;
 mod southwell;
+mod sparse;
 mod start;
 mod system;
 
