@@ -5,6 +5,7 @@ use crate::math::{Real, Vector};
 
 use super::shadow::{area_vector, fans};
 use super::shaft::Shaft;
+use super::visible::contour_error;
 use super::{Estimate, polygon_to_polygon, visible_polygon_to_polygon, visible_polygon_to_polygon_by_rays};
 
 /// Blockers between two polygons up to which exact clipping is faster than rays at an accuracy of 1e-4.
@@ -33,8 +34,7 @@ pub fn polygon_to_polygon_among<V: Vector>(
     // The parts of a polygon that is not convex lie in its hull and together cover it.
     let near = || blockers.iter().filter(|blocker| fans(blocker).any(|part| shaft.meets(&part)));
     if near().next().is_none() {
-        let value = polygon_to_polygon(a, b);
-        return Estimate { value, error: value * V::Scalar::EPSILON };
+        return Estimate { value: polygon_to_polygon(a, b), error: contour_error() };
     }
     let is_few = near().nth(FEW).is_none() || accuracy < V::Scalar::from_f64(FINE);
     if is_few && near().all(|blocker| is_convex(blocker)) {

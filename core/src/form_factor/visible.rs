@@ -133,7 +133,7 @@ impl<'a, V: Vector> Integral<'a, V> {
         let share = area_vector(cell.iter().copied()).length() / self.area;
         if blockers.clone().next().is_none() {
             let value = share * polygon_to_polygon(cell, self.b);
-            return Step::Add(Estimate { value, error: value * V::Scalar::EPSILON });
+            return Step::Add(Estimate { value, error: share * contour_error() });
         }
         let critical = longest(cell, fans(self.b), blockers.clone());
         let center = cell[0].lerp(cell[1].lerp(cell[2], V::Scalar::from_f64(0.5)), V::Scalar::from_f64(2.0 / 3.0));
@@ -165,6 +165,11 @@ fn near<'a, V: Vector>(
         }
         Ok(near)
     })
+}
+
+/// That of [`polygon_to_polygon`].
+pub(super) fn contour_error<R: Real>() -> R {
+    R::EPSILON.max(R::from_f64(1e-12))
 }
 
 /// The error of the finer rule. Where the integrand has no kinks it is far below the difference of the rules, in which

@@ -8,6 +8,7 @@ use core::f64::consts::PI;
 
 use crate::math::Real;
 
+use super::point_to_parallel_disc;
 use super::quadrature::tanh_sinh;
 
 /// Share of the power leaving a disc that lands on another one with the same axis, which faces it at `distance`, past a
@@ -27,7 +28,9 @@ pub fn visible_coaxial_discs<R: Real>(
         [radius_a, radius_b, distance, blocker_radius, blocker_distance].map(R::to_f64);
     let scale = distance / blocker_distance;
     let shadow_radius = blocker_radius * scale;
-    let visible = |r: f64| arc(r, radius_b, distance, PI) - lens([r, r * scale], [radius_b, shadow_radius], distance);
+    let visible = |r: f64| {
+        point_to_parallel_disc(radius_b, distance, r) - lens([r, r * scale], [radius_b, shadow_radius], distance)
+    };
     let touch = |gap: f64| (gap.abs() / (scale - 1.0)).min(radius_a);
     let bounds = [0.0, touch(radius_b - shadow_radius), touch(radius_b + shadow_radius), radius_a];
     let part = |pair: &[f64]| tanh_sinh(pair[0], pair[1], |r| visible(r) * r);
