@@ -113,8 +113,8 @@ impl<'a, V: Vector> Search<'a, V> {
 /// The share of a line on which two linear functions, given at its ends, both have a sign.
 fn overlap<R: Real>(ends: [[R; 2]; 2], sign: R) -> R {
     let (mut start, mut end) = (R::ZERO, R::ONE);
-    for k in 0..2 {
-        let (from, to) = (ends[0][k] * sign, ends[1][k] * sign);
+    for (from, to) in ends[0].into_iter().zip(ends[1]) {
+        let (from, to) = (from * sign, to * sign);
         if from < R::ZERO && to < R::ZERO {
             return R::ZERO;
         }
