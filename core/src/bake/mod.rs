@@ -62,7 +62,7 @@ pub struct Bake {
 /// See [`BakeError`]; the text of each says what to do.
 pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
-    let budget = RayBudget::from(settings.quality);
+    let budget = RayBudget::new(settings);
     let mut log = Log::new(progress);
 
     log.enter(Stage::Unwrap);

@@ -68,8 +68,8 @@ pub fn tanh_sinh(a: f64, b: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     const STEP: f64 = 0.08;
     let half = 0.5 * (b - a);
     let mut at = |t: f64| {
-        let grown = t.exp();
-        let small = (-core::f64::consts::FRAC_PI_2 * (grown - 1.0 / grown)).exp();
+        let grown = Real::exp(t);
+        let small = Real::exp(-core::f64::consts::FRAC_PI_2 * (grown - 1.0 / grown));
         // The share of the interval beyond the point, and the slope of the substitution.
         let beyond = small / (1.0 + small);
         let slope = core::f64::consts::PI * (grown + 1.0 / grown) * beyond / (1.0 + small);

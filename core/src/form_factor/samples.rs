@@ -14,7 +14,7 @@ pub const STANDARD_ERRORS: f64 = 4.0;
 pub struct Samples {
     /// Number of independent Owen scrambles of the Sobol sequence, at least 2; their spread tells the error. Typical: 16.
     pub scrambles: u32,
-    /// Points of each scramble; powers of two fill most evenly.
+    /// Points of each scramble, at least 1; powers of two fill most evenly.
     pub points: u32,
     /// Different seeds give independent results; the same seed gives the same bits.
     pub seed: u32,
@@ -50,16 +50,18 @@ pub(super) fn finish<R: Real>(mean: &mut Estimate<R>, count: u32, least: f64) {
 
 /// The point of a convex polygon that belongs to a point of the unit square, equal areas to equal areas.
 ///
-/// The polygon is taken for a fan of triangles; it has at least three corners and may have no area.
+/// The polygon is taken for a fan of triangles; without area its first corner is as good as any.
 pub(super) fn point_on_polygon<V: Vector>(polygon: &[V], square: [f32; 2]) -> V {
     let [x, y] = square.map(|x| V::Scalar::from_f64(f64::from(x)));
     let (zero, one) = (V::Scalar::ZERO, V::Scalar::ONE);
     let area = |k: usize| (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]).length();
-    let last = polygon.len() - 2;
+    let Some(last) = polygon.len().checked_sub(2).filter(|&last| last > 0) else {
+        return polygon.first().copied().unwrap_or_default();
+    };
     let mut rest = x * (1..=last).map(area).sum::<V::Scalar>();
     let mut k = 1;
     while k < last && rest > area(k) {
-        rest = rest - area(k);
+        rest -= area(k);
         k += 1;
     }
     let root = if area(k) > zero { (rest / area(k)).clamp(zero, one).sqrt() } else { zero };

@@ -66,7 +66,7 @@ impl Blending<'_> {
         Row::weigh(&mut weights)
     }
 
-    /// Adds a texel, or the corners that it is interpolated from.
+    /// Adds a texel, or the corners that it is interpolated from; they may lie between those of wider cells.
     fn push(&self, texel: usize, weight: f32, weights: &mut Vec<(u32, f32)>) {
         if self.numbers[texel] != NONE {
             return weights.push((self.numbers[texel], weight));
@@ -83,9 +83,8 @@ impl Blending<'_> {
                 if k >> axis & 1 == 1 { along } else { 1.0 - along }
             };
             let other = self.texels.at_pixel(u32::from(at.image), i32::from(corner[0]), i32::from(corner[1]));
-            let number = other.map_or(NONE, |other| self.numbers[other as usize]);
-            if number != NONE {
-                weights.push((number, weight * share(0) * share(1)));
+            if let Some(other) = other {
+                self.push(other as usize, weight * share(0) * share(1), weights);
             }
         }
     }

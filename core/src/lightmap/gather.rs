@@ -20,9 +20,9 @@ pub struct GatherSettings {
     pub most_rays: u32,
     /// Cells are at most this share of the harmonic mean distance of what their corners see.
     pub spacing: f32,
-    /// Cells whose corners differ by more than this share of their mean are split.
+    /// Cells whose corners differ by more than this share of their mean are split; infinite: none are for that.
     pub contrast: f32,
-    /// Texels whose noise is still above this share of their light get three times as many rays.
+    /// Texels whose noise is still above this share of their light get three times as many rays; 0: all do.
     pub noise: f32,
 }
 
@@ -176,7 +176,7 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
         let is_noisy = |&texel: &usize| {
             let limit = self.settings.noise * light(texel);
             let node = &gathered[texel];
-            node.rays > 0 && node.width == 1 && self.variance_around(texel, gathered) > limit * limit
+            node.rays > 0 && node.width == 1 && self.variance_around(texel, gathered) >= limit * limit
         };
         let noisy: Vec<usize> = (0..gathered.len()).filter(is_noisy).collect();
         let found = workers.map(noisy.len(), 16, progress, |range| {

@@ -41,17 +41,16 @@ impl Fills {
         5 * self.texels.len() + 4 * self.rings.len()
     }
 
-    /// Whether all that is named lies within an image of so many texels: what a file must show.
-    pub(super) fn is_sound(&self, texels: usize) -> bool {
+    /// Whether all that is named lies within an image: what a file must show.
+    pub(super) fn is_sound(&self, width: u32, height: u32) -> bool {
         let is_inside = |(&at, &from): (&u32, &u8)| {
-            let (x, y) = (i64::from(at % self.width), i64::from(at / self.width));
-            let [width, height] = [i64::from(self.width), (texels / self.width as usize) as i64];
-            let neighbors = NEIGHBORS.iter().enumerate().filter(|(k, _)| from >> k & 1 == 1);
-            let mut inside = neighbors.map(|(_, &[dx, dy])| (x + i64::from(dx), y + i64::from(dy)));
-            (at as usize) < texels && inside.all(|(x, y)| (0..width).contains(&x) && (0..height).contains(&y))
+            let (x, y) = ((at % width) as i32, (at / width) as i32);
+            let mut sources = NEIGHBORS.iter().enumerate().filter(|(k, _)| from >> k & 1 == 1);
+            at < width * height
+                && sources.all(|(_, [dx, dy])| (0..width as i32).contains(&(x + dx)) && (0..height as i32).contains(&(y + dy)))
         };
         let in_order = self.rings.is_sorted() && self.rings.last().map_or(0, |&end| end as usize) == self.texels.len();
-        let fits = self.width > 0 && texels.is_multiple_of(self.width as usize);
-        fits && in_order && self.from.len() == self.texels.len() && self.texels.iter().zip(&self.from).all(is_inside)
+        let fits = self.width == width && self.from.len() == self.texels.len();
+        fits && in_order && self.texels.iter().zip(&self.from).all(is_inside)
     }
 }

@@ -2,6 +2,7 @@
 
 mod codes;
 mod fills;
+mod format;
 mod keep;
 mod lamp_light;
 mod lighting;
@@ -14,6 +15,7 @@ mod tracer;
 
 pub use codes::*;
 pub use fills::*;
+pub use format::*;
 pub use keep::*;
 pub use lamp_light::*;
 pub use lighting::*;

@@ -100,6 +100,24 @@ impl Surfaces {
         self.first(size) + index
     }
 
+    /// Whether all that is named exists: what a file must show.
+    pub(super) fn is_sound(&self, materials: usize) -> bool {
+        let (patches, texels) = (self.areas.len(), self.patch_of.len());
+        let all_below = |list: &[u32], end: usize| list.iter().all(|&index| (index as usize) < end);
+        let cells_fit = self.cells.iter().all(|cells| {
+            let fits = cells.of_texel.len() == texels && cells.count as usize <= texels;
+            fits && all_below(&cells.of_texel, cells.count as usize)
+        });
+        let [details, around] = [3 * (texels + patches), self.around.len()];
+        let lengths_fit = (self.materials.len(), self.texel_areas.len(), around) == (patches, texels, texels)
+            && (self.reflectance.len(), self.emission.len()) == (details, details);
+        let indices_fit = all_below(&self.materials, materials)
+            && all_below(&self.bare, patches)
+            && all_below(&self.patch_of, patches + 2)
+            && self.around.is_sound(patches + 2);
+        cells_fit && lengths_fit && indices_fit && patches + 4 * texels < u32::MAX as usize
+    }
+
     #[inline]
     fn first(&self, size: Size) -> u32 {
         let after_patches = self.areas.len() as u32 + 2;

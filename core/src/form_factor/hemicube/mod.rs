@@ -3,6 +3,21 @@
 //! Cohen and Greenberg, "The Hemi-Cube: A Radiosity Solution for Complex Environments", 1985. The top has `N x N`
 //! pixels, each of the four sides `N x N/2`. An item buffer keeps for each pixel which patch is nearest there; the
 //! form factor of a patch is the sum of the delta form factors of its pixels.
+//!
+//! The error falls with the resolution. Relative to the form factors of 60 parallelograms of any position, each in three
+//! turns of the cube, it is
+//!
+//! | `N` | rms | worst | mean of the bound that a row tells | pixels |
+//! |---|---|---|---|---|
+//! | 16 | 9 % | 46 % | 90 % | 768 |
+//! | 32 | 4 % | 37 % | 43 % | 3 072 |
+//! | 64 | 1.1 % | 5 % | 21 % | 12 288 |
+//! | 128 | 0.36 % | 2.2 % | 10 % | 49 152 |
+//! | 256 | 0.19 % | 1.9 % | 5 % | 196 608 |
+//! | 512 | 0.05 % | 0.3 % | 2.6 % | 786 432 |
+//!
+//! The worst ones are small, of which the error of a few pixels is a large share: a hemicube aliases. Means over points
+//! and turns do not.
 
 mod delta;
 mod rows;
@@ -144,11 +159,10 @@ impl<'a> Hemicube<'a> {
     /// The form factor from the point to what is seen in this pixel: the integral of `cos / pi` over the solid angle of
     /// the pixel. All of them are multiples of `2^-52` and sum to exactly 1.
     pub fn delta(&self, pixel: usize) -> f64 {
-        let half = self.resolution / 2;
-        let Place { face, row, column } = self.place_of(pixel);
-        let from_center = |index: usize| if index < half { half - 1 - index } else { index - half };
-        let row = if face == 0 { from_center(row) } else { half + row };
-        self.buffers.deltas[row * half + from_center(column)]
+        let (n, half) = (self.resolution, self.resolution / 2);
+        let column = pixel % n;
+        let from_center = if column < half { half - 1 - column } else { column - half };
+        self.buffers.deltas[self.delta_row(pixel / n) * half + from_center]
     }
 
     /// The form factors of all patches, and what is left of one. Items beyond the row belong to the void.
@@ -160,26 +174,51 @@ impl<'a> Hemicube<'a> {
         let mut bins = Bins::default();
         row.fill(Estimate { value: R::ZERO, error: R::from_f64(self.largest_delta()) });
         self.add_to(row, &mut bins, R::ONE);
-        for pixel in 0..self.buffers.items.len() {
-            let half = R::from_f64(0.5 * self.delta(pixel));
-            self.for_each_rival(pixel, |rival| {
-                if let Some(entry) = row.get_mut(rival as usize) {
-                    entry.error += half;
-                }
-            });
-        }
+        self.for_each_silhouette(&mut |item, delta| {
+            if let Some(entry) = row.get_mut(item as usize) {
+                entry.error += R::from_f64(0.5 * delta);
+            }
+        });
         bins
     }
 
     /// Adds a share of the form factors to a row.
     fn add_to<R: Real>(&self, row: &mut [Estimate<R>], bins: &mut Bins<R>, share: R) {
-        for (pixel, &item) in self.buffers.items.iter().enumerate() {
-            let delta = R::from_f64(self.delta(pixel)) * share;
+        self.for_each_run(&mut |item, sum| {
+            let sum = R::from_f64(sum) * share;
             match (item, row.get_mut(item as usize)) {
-                (_, Some(entry)) => entry.value += delta,
-                (SKY, None) => bins.sky += delta,
-                (_, None) => bins.void += delta,
+                (_, Some(entry)) => entry.value += sum,
+                (SKY, None) => bins.sky += sum,
+                (_, None) => bins.void += sum,
             }
+        });
+    }
+
+    /// Calls `run` with the item and the sum of the delta form factors of each run of pixels of a row that show the same.
+    fn for_each_run(&self, run: &mut dyn FnMut(u32, f64)) {
+        let (n, half) = (self.resolution, self.resolution / 2);
+        for (row, items) in self.buffers.items.chunks_exact(n).enumerate() {
+            let start = self.delta_row(row) * half;
+            let deltas = &self.buffers.deltas[start..start + half];
+            let (mut item, mut sum) = (items[0], 0.0);
+            for (&next, delta) in items.iter().zip(deltas.iter().rev().chain(deltas)) {
+                if next != item {
+                    run(item, sum);
+                    (item, sum) = (next, 0.0);
+                }
+                sum += delta;
+            }
+            run(item, sum);
+        }
+    }
+
+    /// Which row of the delta form factors belongs to a row of pixels, counted through all faces.
+    fn delta_row(&self, row: usize) -> usize {
+        let half = self.resolution / 2;
+        match row {
+            row if row < half => half - 1 - row,
+            row if row < 2 * half => row - half,
+            row => half + row % half,
         }
     }
 
@@ -188,18 +227,20 @@ impl<'a> Hemicube<'a> {
         self.buffers.deltas[0]
     }
 
-    /// Calls `rival` once with each item whose silhouette may run through a pixel: where a neighbor shows another one,
-    /// its own and those of the neighbors.
-    fn for_each_rival(&self, pixel: usize, mut rival: impl FnMut(u32)) {
-        let item = self.buffers.items[pixel];
-        let others = self.neighbors(pixel).map(|neighbor| neighbor.map_or(item, |pixel| self.buffers.items[pixel]));
-        if others == [item; 4] {
-            return;
-        }
-        rival(item);
-        for (k, &other) in others.iter().enumerate() {
-            if other != item && !others[..k].contains(&other) {
-                rival(other);
+    /// Calls `silhouette` with an item and a delta form factor for each pixel through which its silhouette may run: where
+    /// a neighbor shows another item, once with each that is seen there.
+    fn for_each_silhouette(&self, silhouette: &mut dyn FnMut(u32, f64)) {
+        for (pixel, &item) in self.buffers.items.iter().enumerate() {
+            let others = self.neighbors(pixel).map(|other| other.map_or(item, |other| self.buffers.items[other]));
+            if others == [item; 4] {
+                continue;
+            }
+            let delta = self.delta(pixel);
+            silhouette(item, delta);
+            for (k, &other) in others.iter().enumerate() {
+                if other != item && !others[..k].contains(&other) {
+                    silhouette(other, delta);
+                }
             }
         }
     }

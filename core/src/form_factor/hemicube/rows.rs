@@ -32,7 +32,7 @@ impl Hemicube<'_> {
     /// turn of its own.
     ///
     /// The polygon sends on the side from which it runs counter-clockwise. The error is
-    /// [`STANDARD_ERRORS`](super::STANDARD_ERRORS) standard errors between the scrambles, which see the aliasing of the
+    /// [`STANDARD_ERRORS`](crate::form_factor::STANDARD_ERRORS) standard errors between the scrambles, which see the aliasing of the
     /// pixels as well as the choice of the points, and not below one pixel of one point. `scratch` is as long as `row`.
     /// A polygon without area sees the sky only.
     pub fn polygon_row<V: Vector>(

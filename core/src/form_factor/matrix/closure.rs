@@ -97,7 +97,7 @@ fn settle<M: Matrix>(matrix: &M, bins: &[Bins<M::Scalar>], scales: &mut [M::Scal
             if error > worst.error {
                 worst = Closure { row, error };
             }
-            if !(scales[row] < M::Scalar::INFINITY) {
+            if scales[row] == M::Scalar::INFINITY {
                 return Err(MatrixError::NotClosed { row, error: error.to_f64() });
             }
         }

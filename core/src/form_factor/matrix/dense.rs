@@ -17,7 +17,7 @@ impl<'a, R: Real> DenseRows<'a, R> {
     ///
     /// Where the slice does not have `count x count` entries.
     pub fn new(count: usize, factors: &'a mut [R]) -> Result<Self, MatrixError> {
-        check_length("factors", factors.len(), count * count)?;
+        check_length("factors", factors.len(), count.saturating_mul(count))?;
         Ok(Self { count, factors })
     }
 

@@ -48,21 +48,19 @@ pub trait Matrix {
 ///
 /// # Errors
 ///
-/// Where an area or a factor is unsuitable, or a sparse row lacks the partner of an entry that is not zero.
+/// Where an area or a factor is unsuitable, or a sparse row lacks the partner of an entry that is not zero. Nothing is
+/// changed then.
 pub fn enforce_reciprocity<M: Matrix>(areas: &[M::Scalar], matrix: &mut M) -> Result<(), MatrixError> {
     check(areas, matrix)?;
+    check_partners(matrix)?;
     let half = M::Scalar::from_f64(0.5);
     for i in 0..matrix.count() {
         for k in 0..matrix.width(i) {
             let (j, factor) = matrix.entry(i, k);
-            match matrix.find(j, i) {
-                Some(back) if i < j => {
-                    let exchange = half * (areas[i] * factor + areas[j] * matrix.entry(j, back).1);
-                    matrix.set(i, k, exchange / areas[i]);
-                    matrix.set(j, back, exchange / areas[j]);
-                }
-                None if factor != M::Scalar::ZERO => return Err(MatrixError::NoPartner { row: i, column: j }),
-                _ => {}
+            if let Some(back) = matrix.find(j, i).filter(|_| i < j) {
+                let exchange = half * (areas[i] * factor + areas[j] * matrix.entry(j, back).1);
+                matrix.set(i, k, exchange / areas[i]);
+                matrix.set(j, back, exchange / areas[j]);
             }
         }
     }
@@ -101,9 +99,22 @@ fn check<M: Matrix>(areas: &[M::Scalar], matrix: &M) -> Result<(), MatrixError> 
     Ok(())
 }
 
+/// Each entry that is not zero has a partner that can be set.
+fn check_partners<M: Matrix>(matrix: &M) -> Result<(), MatrixError> {
+    for row in 0..matrix.count() {
+        for k in 0..matrix.width(row) {
+            let (column, factor) = matrix.entry(row, k);
+            if factor != M::Scalar::ZERO && matrix.find(column, row).is_none() {
+                return Err(MatrixError::NoPartner { row, column });
+            }
+        }
+    }
+    Ok(())
+}
+
 fn check_areas<R: Real>(areas: &[R], count: usize) -> Result<(), MatrixError> {
     check_length("areas", areas.len(), count)?;
-    match areas.iter().position(|&area| !(area > R::ZERO && area < R::INFINITY)) {
+    match areas.iter().position(|&area| area == R::ZERO || !is_share(area)) {
         Some(index) => Err(MatrixError::Area { index }),
         None => Ok(()),
     }
