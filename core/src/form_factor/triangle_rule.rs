@@ -31,13 +31,18 @@ pub(super) fn means<V: Vector>(triangle: &[V; 3], f: impl Fn(V) -> V::Scalar) ->
     (mean(&COARSE), mean(&FINE))
 }
 
+/// The mean of `f` over a triangle by 16 points.
+pub(super) fn mean<V: Vector>(triangle: &[V; 3], f: &mut impl FnMut(V) -> V::Scalar) -> V::Scalar {
+    FINE.iter().map(|orbit| orbit_sum(triangle, orbit, &mut *f)).sum()
+}
+
 /// Weighted sum over the points that arise when the barycentric coordinates change places.
-fn orbit_sum<V: Vector>(triangle: &[V; 3], &(weight, a, b): &Orbit, f: impl Fn(V) -> V::Scalar) -> V::Scalar {
+fn orbit_sum<V: Vector>(triangle: &[V; 3], &(weight, a, b): &Orbit, mut f: impl FnMut(V) -> V::Scalar) -> V::Scalar {
     let c = 1.0 - a - b;
     let is_symmetric = (b - c).abs() < 1e-12;
     let [u, v, w] = *triangle;
     let [a_, b_, c_] = [a, b, c].map(V::Scalar::from_f64);
-    let at = |u: V, v: V, w: V| f(u * a_ + v * b_ + w * c_);
+    let mut at = |u: V, v: V, w: V| f(u * a_ + v * b_ + w * c_);
     let sum = if is_symmetric && (a - b).abs() < 1e-12 {
         at(u, v, w)
     } else if is_symmetric {
