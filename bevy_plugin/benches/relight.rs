@@ -48,7 +48,7 @@ fn main() {
             let rms = 100.0 * difference(&relit, &again, &again);
             print!("; a bake anew that keeps {keep:?} takes {seconds:.1} s and differs by {rms:.3} % rms");
         }
-        println!("; energy {:.5}", relit.report.energy_balance);
+        println!("; energy {:.5}", relighter.energy_balance());
     }
 }
 
