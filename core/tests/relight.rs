@@ -174,7 +174,8 @@ fn reciprocity() {
         let relit = relit(transport, &lighting);
         let (surfaces, stored) = (&transport.surfaces, &transport.images[0]);
         let texels = surfaces.patch_of.iter().zip(&surfaces.texel_areas).zip(&stored.places);
-        let on_receiver = texels.filter(|((patch, _), _)| surfaces.materials[**patch as usize] == receiver as u32);
+        let material = |patch: u32| surfaces.materials.get(patch as usize).copied();
+        let on_receiver = texels.filter(|((patch, _), _)| material(**patch) == Some(receiver as u32));
         on_receiver.map(|((_, area), &place)| relit.images[0][place as usize].x * area).sum::<f32>()
     };
     let (there, back) = (received(0, 1), received(1, 0));
