@@ -29,6 +29,7 @@
 //! | `material` | reflectance, exitance, alpha, textures |
 //! | [`geometry`] | triangles, rays, directions, Sobol points, the tree |
 //! | [`spline`] | Bezier curves and surfaces |
+//! | [`composite`] | triangles to pixels, with a depth buffer |
 //! | [`form_factor`] | the share of the light of one surface that reaches another |
 //! | `light` | the irradiance that a lamp gives at a point |
 //! | [`solve`] | the radiosity equation `b = e + rho F b` |
@@ -56,7 +57,7 @@
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | none | `math`, `spectrum`, `geometry`, `spline`, `form_factor`, `solve`, uniform `patch`es on slices: neither heap nor operating system |
+//! | none | `math`, `spectrum`, `geometry`, `spline`, `composite`, `form_factor`, `solve`, uniform `patch`es, on slices: neither heap nor operating system |
 //! | `alloc` | all other modules |
 //! | `std` | the clock and the float functions of the system |
 //! | `bvh`, `parallel`, `unwrap` | the tree of obvhs, the threads of rayon, coordinates for meshes that have none |
@@ -79,6 +80,7 @@ pub mod parallel;
 pub mod material;
 pub mod geometry;
 pub mod spline;
+pub mod composite;
 pub mod form_factor;
 #[cfg(feature = "alloc")]
 pub mod light;

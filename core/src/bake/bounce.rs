@@ -12,7 +12,7 @@ use crate::lightmap::{Patch, Patches, Site, Texels};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::World;
-use crate::solve::{Chebyshev, FormFactors, System};
+use crate::solve::{Chebyshev, FormFactors, Solver, System};
 use crate::transport::{End, RowCounts, Rows, Tracer};
 
 /// Surfaces that reflect more are taken to reflect this much: nothing real reflects all.
@@ -164,11 +164,12 @@ impl Bounce {
         let exitance: Vec<Vec3> =
             (0..count).map(|i| self.emission[i] + self.reflectance[i] * (self.direct[i] + sky * rows.sky(i))).collect();
         self.radiance = exitance.clone();
-        let system = System { exitance: &exitance, reflectance: &self.reflectance, form_factors: rows };
-        let (mut sweeps, mut scratch) = (Chebyshev::new(&system), vec![Vec3::ZERO; 2 * count]);
+        let system = System::new(&exitance, &self.reflectance, rows);
+        let mut scratch = vec![Vec3::ZERO; 2 * count];
+        let mut solver = Chebyshev::new(&system, &mut scratch);
         for _ in 0..MOST_SWEEPS {
             progress.check()?;
-            if sweeps.sweep(&system, &mut self.radiance, &mut scratch, TOLERANCE) {
+            if solver.step(&system, &mut self.radiance).is_within(TOLERANCE) {
                 break;
             }
         }

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::{Element, Exchange, Field, Shape};
 use crate::math::{Real, Vector};
-use crate::solve::{System, gauss_seidel};
+use crate::solve::{Stop, System, gauss_seidel};
 use crate::spectrum::Spectrum;
 
 /// Sweeps at most: reflectances up to 0.99 reach any tolerance before.
@@ -49,8 +49,9 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Solution<V, S> {
     pub fn solve(&mut self, shapes: &[Shape<V, S>], tolerance: V::Scalar) {
         let of = |get: fn(&Shape<V, S>) -> S| self.elements.iter().map(|e| get(&shapes[e.shape])).collect::<Vec<S>>();
         let (exitance, reflectance) = (of(|shape| shape.exitance), of(|shape| shape.reflectance));
-        let system = System { exitance: &exitance, reflectance: &reflectance, form_factors: &self.exchange };
-        self.sweeps += gauss_seidel(&system, &mut self.radiosity, tolerance, MOST_SWEEPS);
+        let system = System::new(&exitance, &reflectance, &self.exchange);
+        let stop = Stop { tolerance, most_steps: MOST_SWEEPS };
+        self.sweeps += gauss_seidel(&system, &mut self.radiosity, &stop).steps;
     }
 
     /// The continuous function through the radiosities.
