@@ -4,8 +4,9 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use super::topology::{restrict, split};
-use super::{Element, Field, Shape, Solution};
+use super::{Element, Enclosure, Field, Shape};
 use crate::math::{Real, Vector};
+use crate::solve::Stop;
 use crate::spectrum::Spectrum;
 
 /// How far to go.
@@ -18,8 +19,8 @@ pub struct Refinement<R> {
     pub smallest_area: R,
     /// No more is cut where there are as many elements; keeping neighbors alike may take a few more.
     pub most_elements: usize,
-    /// The tolerance of the solver, as a share of the largest radiosity; 1e-6 is usual.
-    pub solver_tolerance: R,
+    /// When the solver stops, each time.
+    pub stop: Stop<R>,
 }
 
 /// Why refinement ended.
@@ -36,7 +37,7 @@ pub enum Refined {
 /// The share of the square of the error that is cut in one step: the bulk criterion of Doerfler 1996.
 const BULK: f64 = 0.6;
 
-impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Solution<V, S> {
+impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Enclosure<V, S> {
     /// Cuts the elements on which the solution varies most, computes the form factors of the pieces and solves again,
     /// until the estimated error is within the tolerance. Gives the reason to end and the estimated error.
     ///
@@ -65,13 +66,13 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Solution<V, S> {
                 return (Refined::SmallestArea, error);
             }
             self.cut(shapes, &field, &marked, form_factor);
-            self.solve(shapes, settings.solver_tolerance);
+            self.solve(shapes, &settings.stop);
         }
     }
 
     /// The integral over each element of the square of its error.
     fn errors(&self, field: &Field<V, S>) -> Vec<V::Scalar> {
-        let of = |(i, element): (usize, &Element<V>)| field.variance(i, element) * element.area;
+        let of = |(i, element): (usize, &Element<V>)| field.errors[i] * field.errors[i] * element.area;
         self.elements.iter().enumerate().map(of).collect()
     }
 
