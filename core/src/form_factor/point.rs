@@ -93,11 +93,11 @@ mod tests {
             let factor = point_to_point(p.center, p.normal, q.center, q.normal, area);
             let exact = radius * radius / (radius * radius + r * r);
             let relative = (factor - exact) / exact;
-            assert!((relative / (radius / r).powi(2) - 1.0).abs() < 1e-9);
+            assert!((relative / (radius * radius / (r * r)) - 1.0).abs() < 1e-9);
             assert!(factor - exact <= point_to_point_error(&p, &q));
             last = point_to_point_error(&p, &q) / factor;
         }
-        assert!(last < 20.0 * (radius / 32.0).powi(2));
+        assert!(last < 20.0 * radius * radius / 1024.0);
     }
 
     #[test]
