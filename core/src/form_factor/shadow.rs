@@ -220,11 +220,7 @@ fn lambert_sum<V: Vector>(polygon: &[V], normal: V) -> V::Scalar {
         let (from, to) = (polygon[(i + 1) % polygon.len()], polygon[i]);
         let cross = from.cross(to);
         let length = cross.length();
-        if length > V::Scalar::ZERO {
-            length.atan2(from.dot(to)) * cross.dot(normal) / length
-        } else {
-            V::Scalar::ZERO
-        }
+        if length > V::Scalar::ZERO { length.atan2(from.dot(to)) * cross.dot(normal) / length } else { V::Scalar::ZERO }
     });
     edges.sum::<V::Scalar>() / (V::Scalar::PI + V::Scalar::PI)
 }

@@ -30,7 +30,8 @@ impl<V: Vector> Shaft<V> {
 
     /// Whether a blocker may stop light between the two.
     pub(super) fn meets(&self, blocker: &Fan<V>) -> bool {
-        let is_outside = |&(normal, start): &(V, V::Scalar)| blocker.corners().all(|corner| normal.dot(corner) <= start);
+        let is_outside =
+            |&(normal, start): &(V, V::Scalar)| blocker.corners().all(|corner| normal.dot(corner) <= start);
         !self.planes.iter().any(is_outside)
     }
 
