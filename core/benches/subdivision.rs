@@ -18,7 +18,7 @@ const ACCURACY: f64 = 1e-4;
 /// Tolerances of the adaptive runs, from coarse to fine, each a factor below the one before.
 const STEP: f64 = 0.84;
 /// Each measurement is the best of so many.
-const REPETITIONS: usize = 1;
+const REPETITIONS: usize = 2;
 
 type Quad = [DVec3; 4];
 type Shapes<'a> = [Shape<'a, DVec3, f64>];
@@ -78,9 +78,9 @@ fn compare(scene: &Scene, shapes: &Shapes) {
     let start = || grid(scene, shapes, scene.start);
     let mut tolerance = 0.1;
     for side in scene.sides {
-        let even = measure(scene, shapes, &probes, || solve(scene, shapes, grid(scene, shapes, side)));
+        let even = measure(shapes, &probes, || solve(scene, shapes, grid(scene, shapes, side)));
         let fit = loop {
-            let run = measure(scene, shapes, &probes, || refine(scene, shapes, start(), tolerance));
+            let run = measure(shapes, &probes, || refine(scene, shapes, start(), tolerance));
             if run.error <= even.error {
                 break run;
             }
@@ -123,7 +123,7 @@ fn form_factor(scene: &Scene, a: &Element<DVec3>, b: &Element<DVec3>) -> f64 {
     a.corners().iter().map(middle).sum::<f64>() / a.corners().len() as f64
 }
 
-fn measure(_: &Scene, shapes: &Shapes, probes: &[Probe], run: impl Fn() -> Enclosure<DVec3, f64>) -> Run {
+fn measure(shapes: &Shapes, probes: &[Probe], run: impl Fn() -> Enclosure<DVec3, f64>) -> Run {
     let mut seconds = f64::INFINITY;
     let mut enclosure = None;
     for _ in 0..REPETITIONS {

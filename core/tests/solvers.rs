@@ -83,7 +83,8 @@ fn known_rooms() {
         cases += room.known.len();
         for start in [vec![DVec3::ZERO; count], vec![DVec3::new(7.0, 0.0, 100.0); count], room.exitance.clone()] {
             let mut scratch = Scratch::new(count);
-            for (name, mut solver) in scratch.solvers(&system, &room.areas, 1.1) {
+            let omega = OverRelaxation::new(&system).omega;
+            for (name, mut solver) in scratch.solvers(&system, &room.areas, omega) {
                 let mut radiosity = start.clone();
                 let stop = Stop { tolerance: 1e-13, most_steps: 20_000 };
                 let solution = solver.solve(&system, &mut radiosity, &stop);
@@ -264,7 +265,8 @@ fn sweeps(rho: f64) -> [usize; 6] {
     let system = System::new(&exitance, &reflectance, &dense);
     let mut scratch = Scratch::new(6);
     let stop = Stop { tolerance: 1e-6, most_steps: 100_000 };
-    scratch.solvers(&system, &[1.0; 6], 1.1).map(|(_, mut solver)| solver.solve(&system, &mut [0.0; 6], &stop).steps)
+    let omega = OverRelaxation::new(&system).omega;
+    scratch.solvers(&system, &[1.0; 6], omega).map(|(_, mut solver)| solver.solve(&system, &mut [0.0; 6], &stop).steps)
 }
 
 /// Jacobi needs `ln(tolerance) / ln(rho)` sweeps, Gauss-Seidel and shooting fewer, Chebyshev the square root.
@@ -276,7 +278,8 @@ fn sweeps_are_as_in_theory() {
         assert!((jacobi as f64 / expected - 1.0).abs() < 0.05, "{jacobi} instead of {expected}");
         let polynomial = 2e6_f64.ln() / ((1.0 + (1.0 - rho * rho).sqrt()) / rho).ln();
         assert!((chebyshev as f64) < 1.1 * polynomial + 2.0, "{chebyshev} instead of {polynomial}");
-        assert!(gauss_seidel < jacobi * 3 / 4 && over_relaxed < gauss_seidel, "{gauss_seidel} {over_relaxed}");
+        assert!(gauss_seidel < jacobi * 3 / 4, "{gauss_seidel}");
+        assert!(over_relaxed < gauss_seidel && (over_relaxed < gauss_seidel / 4 || rho < 0.98), "{over_relaxed}");
         // Three different eigenvalues, so three steps from the first residual.
         assert!(gradient <= 5, "{gradient}");
         assert!(shots < 6 * jacobi, "{shots}");

@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         seen.sum::<f64>() / a.corners().len() as f64
     };
     let mut enclosure = Enclosure::new(&shapes, elements, &STOP, &mut form_factor);
-    let settings = Refinement { tolerance: 0.05, smallest_area: 0.001, most_elements: 900, stop: STOP };
+    let settings = Refinement { tolerance: 0.06, smallest_area: 0.001, most_elements: 1200, stop: STOP };
     let (end, error) = enclosure.refine(&shapes, &settings, &mut form_factor);
     println!("{} patches after refinement ({end:?}), estimated error {:.1} %", enclosure.elements.len(), 100.0 * error);
 

@@ -13,9 +13,9 @@ const SIZE: [u32; 2] = [640, 480];
 /// Samples for each pixel in each direction.
 const SAMPLES: u32 = 3;
 /// Of black on the lines between patches.
-const LINE: f32 = 0.45;
+const LINE: f32 = 0.3;
 /// What a radiosity is multiplied by before tone mapping.
-const EXPOSURE: f32 = 0.55;
+const EXPOSURE: f32 = 1.7;
 
 /// The patches as the camera sees them: samples row by row, each of a patch and its radiosity.
 pub struct Picture {
@@ -46,8 +46,8 @@ impl Picture {
         let count = (size[0] * size[1]) as usize;
         let (mut samples, mut depths) = (vec![(usize::MAX, Vec3::ZERO); count], vec![0.0; count]);
         let mut buffer = DepthBuffer::new(size, &mut depths)?;
-        let eye = DVec3::new(0.0, 1.0, 4.35);
-        let clip = camera(eye.as_vec3(), Vec3::Y);
+        let eye = DVec3::new(0.0, 1.6, 3.9);
+        let clip = camera(eye.as_vec3(), Vec3::Y * 0.9);
         for (i, element) in elements.iter().enumerate() {
             if element.normal.dot(eye - element.center) <= 0.0 {
                 continue;
@@ -93,5 +93,5 @@ impl Picture {
 /// From the world to clip space with reversed depth.
 fn camera(eye: Vec3, target: Vec3) -> Mat4 {
     let aspect = SIZE[0] as f32 / SIZE[1] as f32;
-    Mat4::perspective_infinite_reverse_rh(0.62, aspect, 0.1) * Mat4::look_at_rh(eye, target, Vec3::Y)
+    Mat4::perspective_infinite_reverse_rh(0.66, aspect, 0.1) * Mat4::look_at_rh(eye, target, Vec3::Y)
 }

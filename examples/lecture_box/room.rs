@@ -1,4 +1,4 @@
-//! A room of 2 m with a lamp, two blocks and a cushion, open to the front.
+//! A room of 2.6 m x 2 m x 2 m with a lamp, two blocks and a cushion, open to the front.
 
 use glam::DVec3;
 use radiosity::patch::{self, Element, Patch, uniform};
@@ -48,14 +48,14 @@ impl Surface {
 impl Room {
     pub fn new() -> Result<Self, BezierError> {
         let mut room = Self { surfaces: Vec::new() };
-        let [low, x, y, z] = [DVec3::new(-1.0, 0.0, -1.0), DVec3::X * 2.0, DVec3::Y * 2.0, DVec3::Z * 2.0];
+        let [low, x, y, z] = [DVec3::new(-1.3, 0.0, -1.0), DVec3::X * 2.6, DVec3::Y * 2.0, DVec3::Z * 2.0];
         room.add([low, z, x], WHITE, DVec3::ZERO, 0);
         room.add([low + y, x, z], WHITE, DVec3::ZERO, 0);
         room.add([low, y, z], RED, DVec3::ZERO, 0);
         room.add([low + x, z, y], GREEN, DVec3::ZERO, 0);
         room.add([low, x, y], WHITE, DVec3::ZERO, 0);
-        room.add_block(DVec3::new(-0.35, 0.0, -0.45), [0.55, 1.15], 0.3);
-        room.add_block(DVec3::new(0.45, 0.0, 0.1), [0.5, 0.5], -0.28);
+        room.add_block(DVec3::new(-0.45, 0.0, -0.45), [0.55, 1.15], 0.35);
+        room.add_block(DVec3::new(0.55, 0.0, 0.0), [0.55, 0.55], -0.3);
         room.add([DVec3::new(-0.25, 1.96, -0.35), DVec3::X * 0.5, DVec3::Z * 0.5], DVec3::ZERO, LIGHT, 1);
         let cushion = Patch::Spline(BezierSurface::new(&CUSHION_POINTS, 4)?);
         let [divisions, blocking] = CUSHION.map(|count| [count; 2]);

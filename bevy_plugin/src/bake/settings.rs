@@ -99,6 +99,7 @@ impl From<&BakeSettings> for bake::BakeSettings {
             threads: if settings.threads == 0 { (cores - 1).max(1) } else { settings.threads },
             memory_bytes: settings.memory_bytes,
             seed: settings.seed,
+            ..Default::default()
         }
     }
 }

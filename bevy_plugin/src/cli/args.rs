@@ -110,6 +110,7 @@ impl Args {
             threads: self.threads,
             memory_bytes: self.memory.unwrap_or_else(most_of_the_machine),
             seed: self.seed,
+            ..Default::default()
         }
     }
 }

@@ -21,6 +21,7 @@ mod write;
 
 use std::ffi::OsString;
 use std::fs;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -91,6 +92,15 @@ fn report(error: &CliError) {
 pub fn try_run(args: impl IntoIterator<Item = OsString>, interrupted: &AtomicBool) -> Result<String, CliError> {
     let args = Args::try_parse_from(args).map_err(CliError::Usage)?;
     bake_to_folder(&args, interrupted)
+}
+
+/// The scene of a glTF file, as the command line bakes it.
+///
+/// # Errors
+///
+/// The file cannot be read or has no scene.
+pub fn read_scene(path: &Path) -> Result<Scene, CliError> {
+    Ok(load::load(&Document::read(path)?)?.collected.scene)
 }
 
 /// The whole way, in its order.

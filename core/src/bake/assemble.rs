@@ -1,42 +1,77 @@
-//! Texels back into images.
+//! Texels back into images, and what is kept beside them.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
-use crate::lightmap::{LightmapImage, NONE, Patches, Smooth, TexelState, Texels, dilate};
+use crate::lightmap::{Blend, LightmapImage, NONE, Nodes, Patches, Smooth, TexelState, Texels, dilate};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
+use crate::transport::{Fills, LampLight, Lighting, Rows, StoredImage, Surfaces, Transport};
 
-/// The finished images: direct and indirect light together, what is missing filled in.
-pub(super) fn images(
-    texels: &Texels,
-    is_valid: &[bool],
-    patches: &Patches,
-    direct: &[Vec3],
-    indirect: &[Smooth],
-    workers: &Workers,
-    progress: &Progress,
-) -> Result<Vec<LightmapImage>, Cancelled> {
-    let finished = workers.map(texels.sizes.len(), 1, progress, |range| {
-        range
-            .map(|index| {
-                let mut image = empty(texels.sizes[index]);
-                for (at, &texel) in texels.index[index].iter().enumerate().filter(|(_, texel)| **texel != NONE) {
-                    let texel = texel as usize;
-                    image.charts[at] = texels.list[texel].chart;
-                    image.patches[at] = patches.of_texel[texel];
-                    image.states[at] = if is_valid[texel] { TexelState::Valid } else { TexelState::Invalid };
-                    if is_valid[texel] {
-                        image.texels[at] = (direct[texel] + indirect[texel].irradiance).max(Vec3::ZERO);
-                    }
-                }
-                dilate(&mut image, progress).map(|()| image)
-            })
-            .collect()
-    })?;
-    finished.into_iter().collect()
+/// What finished images are made of.
+pub(super) struct Assembly<'a> {
+    pub texels: &'a Texels,
+    pub is_valid: &'a [bool],
+    pub patches: &'a Patches,
+    pub workers: &'a Workers,
+    pub progress: &'a Progress,
+}
+
+impl Assembly<'_> {
+    /// The finished images: direct and indirect light together, what is missing filled in; and how it was filled.
+    pub fn images(&self, direct: &[Vec3A], indirect: &[Smooth]) -> Result<(Vec<LightmapImage>, Vec<Fills>), Cancelled> {
+        let finished = self.workers.map(self.texels.sizes.len(), 1, self.progress, |range| {
+            range
+                .map(|index| {
+                    let mut image = self.image(index, direct, indirect);
+                    dilate(&mut image, self.progress).map(|fills| (image, fills))
+                })
+                .collect()
+        })?;
+        finished.into_iter().collect()
+    }
+
+    fn image(&self, index: usize, direct: &[Vec3A], indirect: &[Smooth]) -> LightmapImage {
+        let mut image = empty(self.texels.sizes[index]);
+        for (at, &texel) in self.texels.index[index].iter().enumerate().filter(|(_, texel)| **texel != NONE) {
+            let texel = texel as usize;
+            image.charts[at] = self.texels.list[texel].chart;
+            image.patches[at] = self.patches.of_texel[texel];
+            image.states[at] = if self.is_valid[texel] { TexelState::Valid } else { TexelState::Invalid };
+            if self.is_valid[texel] {
+                image.texels[at] = (Vec3::from(direct[texel]) + indirect[texel].irradiance).max(Vec3::ZERO);
+            }
+        }
+        image
+    }
+
+    /// All that other light needs.
+    pub fn transport(
+        &self,
+        surfaces: Surfaces,
+        lamps: Vec<LampLight>,
+        patches: Rows,
+        nodes: Nodes,
+        fills: Vec<Fills>,
+        lighting: Lighting,
+    ) -> Result<Transport, Cancelled> {
+        let blend = Blend::new(nodes, self.texels, self.is_valid, self.workers, self.progress)?;
+        let images = fills.into_iter().enumerate().map(|(index, fills)| self.stored(index, fills)).collect();
+        Ok(Transport { surfaces, lamps, patches, nodes: blend.nodes, texels: blend.texels, images, lighting })
+    }
+
+    fn stored(&self, index: usize, fills: Fills) -> StoredImage {
+        let [width, height] = self.texels.sizes[index];
+        let of_image =
+            self.texels.list.iter().zip(self.is_valid).filter(|(texel, _)| usize::from(texel.image) == index);
+        let places = of_image.map(|(texel, &is_valid)| {
+            let [column, row] = texel.pixel.map(u32::from);
+            if is_valid { row * width + column } else { StoredImage::NOWHERE }
+        });
+        StoredImage { width, height, places: places.collect(), fills }
+    }
 }
 
 fn empty([width, height]: [u32; 2]) -> LightmapImage {

@@ -34,7 +34,7 @@ pub(super) fn check(scene: &Scene, settings: &BakeSettings) -> Result<(), BakeEr
     }
     scene.lights.iter().try_for_each(check_light)?;
     let emits = scene.surfaces.iter().any(|surface| surface.casts && scene.materials[surface.material].is_emissive());
-    if !scene.lights.iter().any(|light| strength(&light.source).0.max_element() > 0.0)
+    if !scene.lights.iter().any(|light| light.source.strength().max_element() > 0.0)
         && !emits
         && scene.sky.max_element() <= 0.0
     {
@@ -44,7 +44,7 @@ pub(super) fn check(scene: &Scene, settings: &BakeSettings) -> Result<(), BakeEr
 }
 
 fn check_light(light: &Light) -> Result<(), BakeError> {
-    let (strength, place) = strength(&light.source);
+    let (strength, place) = (light.source.strength(), place(&light.source));
     if strength.is_finite() && strength.min_element() >= 0.0 && place.is_finite() {
         return Ok(());
     }
@@ -54,15 +54,15 @@ fn check_light(light: &Light) -> Result<(), BakeError> {
     ))
 }
 
-/// How strong a light is, and the sum of all vectors and lengths that place it: finite if all are.
-fn strength(source: &LightSource) -> (Vec3, Vec3) {
+/// The sum of all vectors and lengths that place a light: finite if all are.
+fn place(source: &LightSource) -> Vec3 {
     match source {
-        LightSource::Point(light) => (light.intensity, light.position + light.radius),
+        LightSource::Point(light) => light.position + light.radius,
         LightSource::Spot(SpotLight { point, direction, inner_angle, outer_angle }) => {
-            (point.intensity, point.position + *direction + (point.radius + inner_angle + outer_angle))
+            point.position + *direction + (point.radius + inner_angle + outer_angle)
         }
-        LightSource::Directional(light) => (light.illuminance, light.direction + light.angular_diameter),
-        LightSource::Rect(light) => (light.radiance, light.center + light.half_width + light.half_height),
+        LightSource::Directional(light) => light.direction + light.angular_diameter,
+        LightSource::Rect(light) => light.center + light.half_width + light.half_height,
     }
 }
 

@@ -8,19 +8,32 @@ use glam::{Vec2, Vec3};
 use crate::geometry::{Hit, Sobol, normal_and_area};
 use crate::light::{AreaLight, DirectLight};
 use crate::scene::World;
+use crate::transport::Origin;
 
-/// Emissive surfaces with more than this share of all area are seen well enough by the rays that gather.
-const LARGEST_SHARE: f32 = 0.05;
+/// Emissive surfaces with more than this share of all area are seen well enough by the rays that gather. A luminous
+/// ceiling is below: as a light it leaves two thirds of the error, or a third where nothing stands in its way.
+const LARGEST_SHARE: f32 = 0.25;
 /// Points of a triangle at which its textures are looked up.
 const POINTS: u32 = 16;
 
-/// The lights of a scene, and for each surface whether its emission is among them.
+/// A light of strength 1 with shadow rays of its own.
+pub(super) struct Lamp {
+    pub origin: Origin,
+    pub light: DirectLight,
+}
+
+/// The lights of a scene, each of strength 1, and for each surface whether its emission is among them.
 ///
 /// Small emitters would be noise in gathered light: as lights they are a closed form times a visible share. Each
 /// triangle has one radiance then, the mean of its texture.
-pub(super) fn lights(world: &World) -> (Vec<DirectLight>, Vec<bool>) {
-    let mut lights: Vec<DirectLight> = world.scene.lights.iter().map(|light| (&light.source).into()).collect();
-    lights.retain(|light| !matches!(light, DirectLight::Area(light) if light.is_empty()));
+pub(super) fn lamps(world: &World) -> (Vec<Lamp>, Vec<bool>) {
+    let lights = world.scene.lights.iter().enumerate();
+    let mut lamps: Vec<Lamp> = lights
+        .map(|(index, light)| Lamp {
+            origin: Origin::Lamp(index as u32),
+            light: (&light.source.with_strength(Vec3::ONE)).into(),
+        })
+        .collect();
     let mut is_light = vec![false; world.scene.surfaces.len()];
     let triangles = triangles_of_surfaces(world);
     let area = |&triangle: &u32| normal_and_area(&world.corners[triangle as usize]).map_or(0.0, |(_, area)| area);
@@ -32,20 +45,19 @@ pub(super) fn lights(world: &World) -> (Vec<DirectLight>, Vec<bool>) {
             continue;
         }
         let emitters =
-            triangles[index].iter().map(|&triangle| (world.corners[triangle as usize], mean_emission(world, triangle)));
-        let light = AreaLight::new(emitters, material.double_sided);
+            triangles[index].iter().map(|&triangle| (world.corners[triangle as usize], mean_of_white(world, triangle)));
+        let light = DirectLight::Area(AreaLight::new(emitters, material.double_sided));
         is_light[index] = true;
-        if !light.is_empty() {
-            lights.push(DirectLight::Area(light));
-        }
+        lamps.push(Lamp { origin: Origin::Material(surface.material as u32), light });
     }
-    (lights, is_light)
+    lamps.retain(|lamp| !matches!(&lamp.light, DirectLight::Area(light) if light.is_empty()));
+    (lamps, is_light)
 }
 
-/// The mean radiance of a triangle; where it lets light through it emits less.
-fn mean_emission(world: &World, triangle: u32) -> Vec3 {
+/// The mean radiance of a triangle whose material has radiance 1; where it lets light through it emits less.
+fn mean_of_white(world: &World, triangle: u32) -> Vec3 {
     let hit = |barycentric| Hit { triangle, distance: 0.0, barycentric, front: true };
-    let emission = |hit: &Hit| world.emission(hit) * world.opacity(hit);
+    let emission = |hit: &Hit| world.emission_of_white(hit) * world.opacity(hit);
     if world.material(triangle).emissive_texture.is_none() && world.sides[triangle as usize].is_opaque {
         return emission(&hit(Vec2::ZERO));
     }

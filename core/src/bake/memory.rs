@@ -1,6 +1,7 @@
 //! What a bake will need, before it needs it.
 
-use super::BakeError;
+use super::rays::RayBudget;
+use super::{BakeError, BakeSettings, Keep};
 use crate::lightmap::Layout;
 use crate::scene::{Receiver, Scene};
 
@@ -13,7 +14,11 @@ const COVERED: u64 = 190;
 /// For each patch: itself, its materials, and lists.
 const PATCH: u64 = 150;
 /// For each ray of a row of form factors, if all end on patches of their own.
-const ENTRY: u64 = 16;
+const ENTRY: u64 = 8;
+/// For each covered texel of a transport: how it is mixed, its places, and what lamps give it.
+const KEPT: u64 = 200;
+/// For each of twice the rays of a texel, as refined ones have, while rows of transport are made one after the other.
+const KEPT_ENTRY: u64 = 6;
 
 /// An upper estimate of the memory that a bake needs beside the scene, in bytes.
 ///
@@ -23,9 +28,8 @@ const ENTRY: u64 = 16;
 pub(super) fn check(
     scene: &Scene,
     layout: &Layout,
-    row_rays: u32,
-    patches: usize,
-    allowed: u64,
+    budget: &RayBudget,
+    settings: &BakeSettings,
 ) -> Result<u64, BakeError> {
     let triangles: u64 = scene.surfaces.iter().map(|surface| scene.meshes[surface.mesh].triangles.len() as u64).sum();
     let texels: u64 = layout.images.iter().map(|&[width, height]| u64::from(width) * u64::from(height)).sum();
@@ -35,10 +39,15 @@ pub(super) fn check(
         .filter(|surface| surface.receiver == Receiver::Nothing)
         .map(|surface| scene.meshes[surface.mesh].triangles.len() as u64)
         .sum();
-    let patches = (texels / 64).max(patches as u64).min(texels) * 2 + without;
+    let patches = (texels / 64).max(budget.patches as u64).min(texels) * 2 + without;
+    let kept = match settings.keep {
+        Keep::Lightmaps => 0,
+        Keep::Transport => KEPT + u64::from(budget.gather.rays) * 2 * KEPT_ENTRY,
+    };
     let needed = triangles * TRIANGLE
-        + texels * (TEXEL + COVERED)
-        + patches * (PATCH + u64::from(row_rays) * ENTRY)
+        + texels * (TEXEL + COVERED + kept)
+        + patches * (PATCH + u64::from(budget.row) * ENTRY)
         + (16 << 20);
+    let allowed = settings.memory_bytes;
     if needed > allowed { Err(BakeError::OutOfMemory { needed, allowed }) } else { Ok(needed) }
 }

@@ -1,12 +1,12 @@
 //! The whole pipeline: start reading at [`bake`].
 
 mod assemble;
-mod bounce;
 mod check;
 mod emitters;
 mod error;
 mod field;
 mod memory;
+mod pieces;
 mod rays;
 mod report;
 mod settings;
@@ -19,20 +19,20 @@ pub use settings::*;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Occluders, hash, tree};
-use crate::light::DirectLight;
 use crate::lightmap::{
-    Direct, Gather, LightmapImage, LightmapUv, Patches, Placement, Smooth, Texels, check as check_texels, filter,
-    layout,
+    Direct, Gather, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels, filter, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
 use crate::scene::{Scene, World};
-use crate::transport::Tracer;
-use bounce::Stage as PatchStage;
-use field::{Field, Incident};
+use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
+use assemble::Assembly;
+use emitters::Lamp;
+use field::Field;
+use pieces::Pieces;
 use rays::RayBudget;
 use summary::Done;
 
@@ -45,6 +45,8 @@ pub struct Bake {
     pub uvs: Vec<Option<LightmapUv>>,
     /// For each surface of the scene where its lightmap lies, if it has one.
     pub placements: Vec<Option<Placement>>,
+    /// How light travels, if [`BakeSettings::keep`] asks for it.
+    pub transport: Option<Transport>,
     /// What was done and how good it is.
     pub report: Report,
 }
@@ -60,7 +62,7 @@ pub struct Bake {
 /// See [`BakeError`]; the text of each says what to do.
 pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
-    let budget = RayBudget::from(settings.quality);
+    let budget = RayBudget::new(settings);
     let mut log = Log::new(progress);
 
     log.enter(Stage::Unwrap);
@@ -69,106 +71,135 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     if layout.placements.iter().all(Option::is_none) {
         return Err(BakeError::NothingToBake);
     }
-    let needed = memory::check(scene, &layout, budget.row, budget.patches, settings.memory_bytes)?;
+    let needed = memory::check(scene, &layout, &budget, settings)?;
 
     log.enter(Stage::Geometry);
     let world = World::new(scene);
     let blockers = world.corners[..world.blockers].to_vec();
     let tracer = Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
     let mut texels = Texels::new(&world, &layout, progress)?;
-    let baker = Baker { tracer: &tracer, workers: &workers, progress, budget, seed: seed(settings.seed) };
-    let is_valid = check_texels(&mut texels, &tracer, &workers, baker.seed(1), progress)?;
-
-    log.enter_after(Stage::Direct, &tracer);
-    let (lights, is_light) = emitters::lights(&world);
-    let direct = baker.direct(&texels, &is_valid, &lights)?;
-
-    log.enter_after(Stage::Transport, &tracer);
+    let seeds = Seeds(settings.seed);
+    let is_valid = check_texels(&mut texels, &tracer, &workers, seeds.of(1), progress)?;
     let patches = Patches::new(&world, &texels, &is_valid, layout.texels_per_meter, budget.patches);
-    let stage = baker.stage(&texels, &patches);
-    let rows = stage.rows(budget.row)?;
+    let (lamps, is_light) = emitters::lamps(&world);
+    let (texels, patches, tracer, workers) = (&texels, &patches, &tracer, &workers);
+    let pieces = Pieces { tracer, texels, patches, workers, progress, seed: seeds.of(3) };
+    let surfaces = pieces.surfaces(&is_light)?;
+    let baker = Baker { pieces: &pieces, surfaces: &surfaces, is_valid: &is_valid, budget, keep: settings.keep, seeds };
 
-    log.enter_after(Stage::Solve, &tracer);
-    let mut bounce = stage.bounce(&direct, &lights, &is_light)?;
-    bounce.solve(&rows, scene.sky, progress)?;
+    log.enter_after(Stage::Direct, tracer);
+    let lighting = Lighting::from(scene);
+    let (direct, kept) = baker.direct(&lamps, &lighting)?;
 
-    log.enter_after(Stage::Gather, &tracer);
-    let incident = Incident::new(&direct, &texels, &patches, &bounce, &workers, progress)?;
-    let spread = budget.spread();
-    let (world, texels, patches, bounce) = (&world, &texels, &patches, &bounce);
-    let field = Field { world, texels, patches, bounce, is_light: &is_light, spread, incident };
-    let (indirect, nodes) = baker.indirect(&is_valid, &direct, &field)?;
+    log.enter_after(Stage::Transport, tracer);
+    let rows = pieces.rows(budget.row, &surfaces)?;
 
-    log.enter_after(Stage::Finish, &tracer);
-    let images = assemble::images(texels, &is_valid, patches, &direct, &indirect, &workers, progress)?;
+    log.enter_after(Stage::Solve, tracer);
+    let solution = Solution::new(&surfaces, &rows, &lighting, &direct, Vec::new(), workers, progress)?;
 
-    let done = Done { field: &field, is_valid: &is_valid, rows: &rows, direct: &direct, indirect: &indirect };
+    log.enter_after(Stage::Gather, tracer);
+    let radiance = surfaces.radiance(&lighting, &direct, &solution, workers, progress)?;
+    let nodes = baker.gather(&direct, &radiance)?;
+    let indirect = filter(&nodes.gathered, texels, &is_valid, workers, progress)?;
+
+    log.enter_after(Stage::Finish, tracer);
+    let assembly = Assembly { texels, is_valid: &is_valid, patches, workers, progress };
+    let (images, fills) = assembly.images(&direct, &indirect)?;
+    let done =
+        Done { world: &world, texels, is_valid: &is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
+    let report = done.report(&layout, &lighting, &direct, &nodes, &indirect);
+    let transport = match settings.keep {
+        Keep::Lightmaps => None,
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, lighting)?),
+    };
     let report = Report {
-        nodes,
         images: images.len(),
         texels: images.iter().map(|image| image.texels.len()).sum(),
         threads: workers.threads(),
         seed: settings.seed,
         estimated_memory_bytes: needed,
-        stages: log.finish(&tracer),
-        ..done.report(&layout)
+        transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
+        stages: log.finish(tracer),
+        ..report
     };
-    Ok(Bake { images, uvs: layout.uvs, placements: layout.placements, report })
+    Ok(Bake { images, uvs: layout.uvs, placements: layout.placements, transport, report })
 }
 
-/// The steps that send rays.
+/// The steps that find the light of texels.
 struct Baker<'a, O> {
-    tracer: &'a Tracer<'a, O>,
-    workers: &'a Workers,
-    progress: &'a Progress,
+    pieces: &'a Pieces<'a, O>,
+    surfaces: &'a Surfaces,
+    is_valid: &'a [bool],
     budget: RayBudget,
-    seed: u32,
+    keep: Keep,
+    seeds: Seeds,
 }
 
 impl<O: Occluders> Baker<'_, O> {
-    /// Seeds for independent purposes.
-    fn seed(&self, purpose: u32) -> u32 {
-        hash(self.seed, purpose)
-    }
-
-    /// Direct irradiance / pi for each texel.
-    fn direct(&self, texels: &Texels, is_valid: &[bool], lights: &[DirectLight]) -> Result<Vec<Vec3>, Cancelled> {
-        let mut irradiance = vec![Vec3::ZERO; texels.list.len()];
-        for (index, light) in lights.iter().enumerate() {
-            self.progress.enter_part(index, lights.len());
-            let seed = hash(self.seed(2), index as u32);
-            let direct = Direct { texels, is_valid, tracer: self.tracer, rays: self.budget.shadow, seed };
-            direct.add(light, &mut irradiance, self.workers, self.progress)?;
+    /// Direct irradiance / pi for each receiver, and what is kept of each lamp.
+    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<(Vec<Vec3A>, Vec<LampLight>), Cancelled> {
+        let mut sum = vec![Vec3A::ZERO; self.surfaces.receivers()];
+        let mut kept = Vec::new();
+        for (index, lamp) in lamps.iter().enumerate() {
+            self.pieces.progress.enter_part(index, lamps.len());
+            let strength = lighting.strength(lamp.origin);
+            if strength == Vec3::ZERO && self.keep == Keep::Lightmaps {
+                continue;
+            }
+            let light = self.light(lamp, index)?;
+            sum.iter_mut().zip(&light).for_each(|(sum, light)| *sum += Vec3A::from(strength * *light));
+            match self.keep {
+                Keep::Lightmaps => {}
+                Keep::Transport => kept.extend(LampLight::new(lamp.origin, &light)),
+            }
         }
-        Ok(irradiance)
+        Ok((sum, kept))
     }
 
-    fn stage<'a>(&'a self, texels: &'a Texels, patches: &'a Patches) -> PatchStage<'a, O> {
-        let Self { tracer, workers, progress, .. } = *self;
-        PatchStage { tracer, texels, patches, workers, progress, seed: self.seed(3) }
+    /// Irradiance / pi of each receiver from a lamp of strength 1.
+    fn light(&self, lamp: &Lamp, index: usize) -> Result<Vec<Vec3>, Cancelled> {
+        let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
+        let seed = hash(self.seeds.of(2), index as u32);
+        let direct = Direct { texels, is_valid: self.is_valid, tracer, rays: self.budget.shadow, seed };
+        let mut light = direct.light(&lamp.light, workers, progress)?;
+        let bare = &self.surfaces.bare;
+        light.extend(workers.map(bare.len(), 64, progress, |range| {
+            bare[range].iter().map(|&patch| self.pieces.direct_on(patch, &lamp.light)).collect()
+        })?);
+        Ok(light)
     }
 
-    /// Indirect light for each texel, and the number of nodes at which it was gathered.
-    fn indirect(&self, is_valid: &[bool], direct: &[Vec3], field: &Field) -> Result<(Vec<Smooth>, usize), Cancelled> {
+    /// What the nodes gather of the radiance of all columns.
+    fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A]) -> Result<Nodes, Cancelled> {
+        let Pieces { tracer, texels, patches, workers, progress, .. } = *self.pieces;
+        let spread = self.budget.spread();
+        let field = Field { world: tracer.world, texels, patches, surfaces: self.surfaces, spread };
         let gather = Gather {
-            texels: field.texels,
-            is_valid,
-            tracer: self.tracer,
-            radiance: |hit: &_| field.radiance(hit),
-            sky: field.world.scene.sky,
+            texels,
+            is_valid: self.is_valid,
+            tracer,
+            column: |hit: Option<&_>| field.column(hit),
+            radiance,
+            keep: self.keep,
             settings: self.budget.gather,
-            seed: self.seed(4),
+            seed: self.seeds.of(4),
         };
-        let mut gathered = gather.run(self.workers, self.progress)?;
-        let lights: Vec<f32> = direct
-            .iter()
-            .zip(&gathered)
-            .map(|(direct, node)| (*direct + node.irradiance).element_sum() / 3.0)
-            .collect();
+        let mut nodes = gather.run(workers, progress)?;
+        let total = |(direct, node): (&Vec3A, &crate::lightmap::Gathered)| Vec3::from(*direct) + node.irradiance;
+        let lights: Vec<f32> = direct.iter().zip(&nodes.gathered).map(|pair| total(pair).element_sum() / 3.0).collect();
         let mean = lights.iter().sum::<f32>() / lights.len().max(1) as f32;
-        gather.refine(&mut gathered, |texel| lights[texel] + 0.1 * mean, self.workers, self.progress)?;
-        let nodes = gathered.iter().filter(|node| node.width > 0).count();
-        Ok((filter(&gathered, field.texels, is_valid, self.workers, self.progress)?, nodes))
+        gather.refine(&mut nodes, |texel| lights[texel] + 0.1 * mean, workers, progress)?;
+        Ok(nodes)
+    }
+}
+
+/// Seeds for independent purposes.
+#[derive(Clone, Copy)]
+struct Seeds(u64);
+
+impl Seeds {
+    fn of(self, purpose: u32) -> u32 {
+        hash(hash(self.0 as u32, (self.0 >> 32) as u32), purpose)
     }
 }
 
@@ -208,8 +239,4 @@ impl<'a> Log<'a> {
         self.close(tracer.take_count());
         self.stages
     }
-}
-
-fn seed(seed: u64) -> u32 {
-    hash(seed as u32, (seed >> 32) as u32)
 }

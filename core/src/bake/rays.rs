@@ -1,6 +1,6 @@
 //! What each quality spends.
 
-use super::Quality;
+use super::{BakeSettings, Keep, Quality};
 use crate::lightmap::{GatherSettings, ShadowRays};
 use crate::math;
 
@@ -16,6 +16,19 @@ pub(super) struct RayBudget {
 }
 
 impl RayBudget {
+    /// What a bake spends.
+    ///
+    /// Where the transport is kept, where and how often nodes look must not depend on the light of the bake: it would be
+    /// too little for another.
+    pub fn new(settings: &BakeSettings) -> Self {
+        let budget = Self::from(settings.quality);
+        let gather = match settings.keep {
+            Keep::Lightmaps => budget.gather,
+            Keep::Transport => GatherSettings { contrast: f32::INFINITY, noise: 0.0, ..budget.gather },
+        };
+        Self { gather, ..budget }
+    }
+
     /// Width of the cone that one gathered ray stands for, at a distance of one meter: `2 / sqrt(rays)`.
     pub fn spread(&self) -> f32 {
         2.0 / math::sqrt(self.gather.rays as f32)

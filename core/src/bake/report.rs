@@ -30,6 +30,8 @@ pub struct Report {
     pub seed: u64,
     /// What the bake was expected to need at most, in bytes.
     pub estimated_memory_bytes: u64,
+    /// What the transport takes, in bytes; 0: none was kept.
+    pub transport_bytes: u64,
     /// Time and rays of each stage, in their order.
     pub stages: Vec<StageReport>,
     /// Largest difference between 1 and the sum of a row of form factors, sky and void included.

@@ -1,6 +1,7 @@
 //! How a bake is to be made.
 
 use crate::lightmap::LayoutSettings;
+pub use crate::transport::Keep;
 
 /// How a bake is to be made.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,10 +16,12 @@ pub struct BakeSettings {
     pub memory_bytes: u64,
     /// Of all random decisions. The same seed gives the same bits.
     pub seed: u64,
+    /// Whether lamps and colors shall be changed later without a bake.
+    pub keep: Keep,
 }
 
 impl Default for BakeSettings {
-    /// Medium quality, density chosen by it, coordinates kept where they are usable, no limit of memory.
+    /// Medium quality, density chosen by it, coordinates kept where they are usable, no limit of memory, nothing kept.
     fn default() -> Self {
         Self {
             layout: LayoutSettings::default(),
@@ -26,6 +29,7 @@ impl Default for BakeSettings {
             threads: 0,
             memory_bytes: u64::MAX,
             seed: 0,
+            keep: Keep::Lightmaps,
         }
     }
 }

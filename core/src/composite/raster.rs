@@ -7,6 +7,9 @@ use heapless::Vec;
 
 use crate::math;
 
+/// The longest side of a picture.
+const LONGEST: u32 = 1 << 15;
+
 /// Steps of the fixed-point coordinates within a pixel.
 const STEPS: i64 = 256;
 
@@ -26,7 +29,7 @@ pub struct Fragment {
 
 /// Calls `fragment` for each pixel whose center lies in a triangle.
 ///
-/// `size` is the width and height of the picture, each at most 32768. The corners are in clip space as Bevy and wgpu
+/// `size` is the width and height of the picture, each at most 32768; larger ones stay empty. The corners are in clip space as Bevy and wgpu
 /// have it, with reversed depth: what is seen has `-w <= x <= w`, `-w <= y <= w` (y up) and `0 <= z <= w`; the rest is
 /// cut off. Both orientations are drawn. Triangles that share two corners share the pixels along that edge out: each
 /// center belongs to exactly one of them, and one on the edge itself to the triangle below or to the right of it. To that
@@ -96,7 +99,7 @@ impl<'a> DepthBuffer<'a> {
     ///
     /// Where `depths` is not as long as `size` tells, or a side exceeds 32768.
     pub fn new(size: [u32; 2], depths: &'a mut [f32]) -> Result<Self, RasterError> {
-        if size.iter().any(|&side| side > 1 << 15) {
+        if size.iter().any(|&side| side > LONGEST) {
             return Err(RasterError::TooLarge { size });
         }
         let pixels = size[0] as usize * size[1] as usize;
@@ -222,6 +225,9 @@ impl Planes {
     /// The planes take the value 1 in one corner and 0 in the two others when multiplied by `w`: the rows of the inverse
     /// of the matrix whose columns are the corners `(x, y, w)`.
     fn new(size: [u32; 2], corners: &[Vec4; 3]) -> Option<Self> {
+        if size.iter().any(|&side| side > LONGEST) || corners.iter().any(|corner| !corner.is_finite()) {
+            return None;
+        }
         let [a, b, c] = corners.map(|corner| Vec3::new(corner.x, corner.y, corner.w).as_dvec3());
         let determinant = a.dot(b.cross(c));
         if determinant == 0.0 || !determinant.is_finite() {
@@ -367,8 +373,13 @@ mod tests {
     #[test]
     fn nothing_outside_and_nothing_broken() {
         let nan = Vec4::new(f32::NAN, 0.0, 0.5, 1.0);
-        let broken =
-            [[nan; 3], [at(0.0, 0.0), at(1.0, 0.0), nan], [Vec4::splat(f32::INFINITY), at(1.0, 0.0), at(0.0, 1.0)]];
+        let deep = Vec4::new(0.2, 0.3, f32::NAN, 1.0);
+        let broken = [
+            [nan; 3],
+            [at(0.0, 0.0), at(1.0, 0.0), nan],
+            [at(0.0, 0.0), at(1.0, 0.0), deep],
+            [Vec4::splat(f32::INFINITY), at(1.0, 0.0), at(0.0, 1.0)],
+        ];
         let outside =
             [[at(1.1, 0.0), at(2.0, 0.0), at(2.0, 1.0)], [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)].map(|p| p * -1.0)];
         let thin = [[at(0.0, 0.0); 3], [at(-1.0, -1.0), at(0.0, 0.0), at(1.0, 1.0)]];

@@ -14,25 +14,25 @@ const SAFETY: f64 = 4.0;
 const PASSES: u32 = 5;
 
 /// Adaptive cubature with bounded work and without memory of its own.
-#[derive(Clone, Copy, Debug)]
-pub struct Cubature {
+#[derive(Debug)]
+pub struct Cubature<'a> {
     rule: Gauss,
     tolerance: f64,
     /// So many triangles may still be looked at.
-    budget: u32,
+    budget: &'a mut u32,
 }
 
-impl Cubature {
-    /// Integrates with the given absolute accuracy over at most `most` triangles: `whole` hands the triangles of the
-    /// domain to its argument one by one, and `f` is the integrand.
+impl<'a> Cubature<'a> {
+    /// Integrates with the given absolute accuracy: `whole` hands the triangles of the domain to its argument one by
+    /// one, and `f` is the integrand. Each triangle looked at takes one from `budget`; with 0 left none is refined.
     pub fn integral(
         accuracy: f64,
-        most: u32,
+        budget: &'a mut u32,
         mut whole: impl FnMut(&mut dyn FnMut([DVec3; 3])),
         mut f: impl FnMut(DVec3) -> f64,
     ) -> Estimate<f64> {
-        let rule = if accuracy < 1e-6 { GAUSS_6 } else { GAUSS_4 };
-        let mut cubature = Self { rule, tolerance: accuracy / 8.0, budget: most };
+        let rule = if accuracy < 1e-4 { GAUSS_6 } else { GAUSS_4 };
+        let mut cubature = Self { rule, tolerance: accuracy / 8.0, budget };
         let mut best = Estimate { value: 0.0, error: f64::INFINITY };
         for _ in 0..PASSES {
             let mut sum = Estimate::default();
@@ -40,7 +40,7 @@ impl Cubature {
             if sum.error < best.error {
                 best = sum;
             }
-            if best.error <= accuracy || cubature.budget == 0 {
+            if best.error <= accuracy || *cubature.budget == 0 {
                 break;
             }
             cubature.tolerance /= 16.0;
@@ -66,7 +66,7 @@ impl Cubature {
         let values = parts.map(|part| self.sum(&part, f));
         let fine: f64 = values.iter().sum();
         let error = SAFETY * (fine - value).abs();
-        let refines = error > self.tolerance && depth > 0 && self.budget > 0;
+        let refines = error > self.tolerance && depth > 0 && *self.budget > 0;
         if !refines {
             return Estimate { value: fine, error };
         }
@@ -79,7 +79,7 @@ impl Cubature {
 
     /// The plain sum over the points of one triangle.
     fn sum(&mut self, &[a, b, c]: &[DVec3; 3], f: &mut impl FnMut(DVec3) -> f64) -> f64 {
-        self.budget = self.budget.saturating_sub(1);
+        *self.budget = self.budget.saturating_sub(1);
         let (u, v) = (b - a, c - a);
         let area = 0.5 * Real::sqrt(u.cross(v).length_squared());
         area * self.rule.mean_over_triangle(|x, y| f(a + u * x + v * y))
@@ -102,8 +102,8 @@ mod tests {
 
     const TRIANGLE: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
 
-    fn over_triangle(accuracy: f64, most: u32, f: impl FnMut(DVec3) -> f64) -> Estimate<f64> {
-        Cubature::integral(accuracy, most, |each| each(TRIANGLE), f)
+    fn over_triangle(accuracy: f64, mut budget: u32, f: impl FnMut(DVec3) -> f64) -> Estimate<f64> {
+        Cubature::integral(accuracy, &mut budget, |each| each(TRIANGLE), f)
     }
 
     /// The integral of `1 / (x + y)` over the triangle is 1, that of `|x - y|` is 1/6.

@@ -8,10 +8,10 @@ use super::polygon::lambert_sum;
 use super::{Estimate, point_to_point};
 use crate::math::{Real, Vector};
 
-/// Most triangles of `a` that [`double_integral`] looks at.
+/// Most triangles of `a` that are looked at.
 const MOST_TRIANGLES: u32 = 1 << 16;
-/// Most triangles of `b` that [`double_integral_of_points`] looks at for each point of `a`.
-const MOST_TRIANGLES_EACH: u32 = 1 << 12;
+/// Most triangles of `b` that [`double_integral_of_points`] looks at, for all points of `a` together.
+const MOST_TRIANGLES_OF_B: u32 = 1 << 20;
 
 /// Share of the power leaving the front of polygon `a` that lands on the front of polygon `b`, with nothing between:
 /// `F = 1 / A_a int int cos a cos b / (pi r^2) dA_b dA_a`, refined until the estimated error is below `accuracy`.
@@ -23,7 +23,7 @@ const MOST_TRIANGLES_EACH: u32 = 1 << 12;
 /// 65536 triangles. Accuracies below some roundings count as those. Computed in `f64`.
 /// The definition of the form factor, as in Goral et al. 1984; Baum, Rushmeier and Winget 1989 for the inner integral.
 pub fn double_integral<V: Vector>(a: &[V], b: &[V], accuracy: V::Scalar) -> Estimate<V::Scalar> {
-    integral(a, b, accuracy, MOST_TRIANGLES, |pair, p| {
+    integral(a, b, accuracy, |pair, p| {
         let last = b.last().map_or(DVec3::ZERO, |corner| corner.to_dvec3());
         -lambert_sum(p, pair.a.normal, last, b.iter().map(|corner| corner.to_dvec3()))
     })
@@ -32,19 +32,20 @@ pub fn double_integral<V: Vector>(a: &[V], b: &[V], accuracy: V::Scalar) -> Esti
 /// The same integral with nothing in closed form: adaptive cubature of the point formula over `b` for each point of an
 /// adaptive cubature over `a`.
 ///
-/// Slower than [`double_integral`] by orders of magnitude, most of all where the polygons touch; the textbook definition,
-/// to check all others by.
+/// The textbook definition, to check all others by; slower than [`double_integral`] by orders of magnitude, most of all
+/// where the polygons touch: then the work ends after a million triangles, with a larger error.
 pub fn double_integral_of_points<V: Vector>(a: &[V], b: &[V], accuracy: V::Scalar) -> Estimate<V::Scalar> {
     let inner = 0.25 * floor(accuracy);
+    let mut budget = MOST_TRIANGLES_OF_B;
     let mut worst = 0.0;
-    let outer = integral(a, b, accuracy * V::Scalar::from_f64(0.5), MOST_TRIANGLES, |pair, p| {
+    let outer = integral(a, b, accuracy * V::Scalar::from_f64(0.5), |pair, p| {
         let over_b = |each: &mut dyn FnMut([DVec3; 3])| fan(&pair.a, b, each);
         let point = |q| point_to_point(p, pair.a.normal, q, pair.b.normal, 1.0);
-        let found = Cubature::integral(inner, MOST_TRIANGLES_EACH, over_b, point);
+        let found = Cubature::integral(inner, &mut budget, over_b, point);
         worst = Real::max(worst, found.error);
         found.value
     });
-    Estimate { error: outer.error + V::Scalar::from_f64(worst), ..outer }
+    Estimate { error: (outer.error + V::Scalar::from_f64(worst)).min(V::Scalar::ONE), ..outer }
 }
 
 /// Two polygons, measured.
@@ -59,17 +60,17 @@ fn integral<V: Vector>(
     a: &[V],
     b: &[V],
     accuracy: V::Scalar,
-    most: u32,
     mut to_b: impl FnMut(&Pair, DVec3) -> f64,
 ) -> Estimate<V::Scalar> {
     let (Some(plane_a), Some(plane_b)) = (Plane::of(a), Plane::of(b)) else { return Estimate::default() };
     let pair = Pair { a: plane_a, b: plane_b };
     let over_a = |each: &mut dyn FnMut([DVec3; 3])| fan(&plane_b, a, each);
-    let sum = Cubature::integral(floor(accuracy) * plane_a.area, most, over_a, |p| to_b(&pair, p));
+    let mut budget = MOST_TRIANGLES;
+    let sum = Cubature::integral(floor(accuracy) * plane_a.area, &mut budget, over_a, |p| to_b(&pair, p));
     let rounding = 4.0 * V::Scalar::EPSILON.to_f64();
     Estimate {
         value: V::Scalar::from_f64((sum.value / plane_a.area).clamp(0.0, 1.0)),
-        error: V::Scalar::from_f64(sum.error / plane_a.area + rounding),
+        error: V::Scalar::from_f64(Real::min(sum.error / plane_a.area + rounding, 1.0)),
     }
 }
 

@@ -1,10 +1,11 @@
 //! Polygon to polygon with visibility by rays: for many blockers and for those that are not convex.
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
 use crate::geometry::{Occluders, Ray, Sobol};
 use crate::math;
 
+use super::samples::point_on_polygon;
 use super::shadow::area_vector;
 use super::{Estimate, visible_polygon_to_polygon};
 
@@ -55,26 +56,6 @@ pub fn visible_polygon_to_polygon_by_rays(
     }
 }
 
-/// A point of a convex polygon; equal areas of the square become equal areas of the polygon.
-fn point_of(polygon: &[Vec3], square: Vec2) -> Vec3 {
-    let area = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).length();
-    let mut rest = square.x * fan(polygon).map(area).sum::<f32>();
-    for triangle in fan(polygon) {
-        let part = area(triangle);
-        let [a, b, c] = triangle;
-        if rest < part {
-            return a + ((b - a).lerp(c - a, square.y)) * math::sqrt(rest / part);
-        }
-        rest -= part;
-    }
-    polygon[0]
-}
-
-/// The triangles of a convex polygon.
-fn fan(polygon: &[Vec3]) -> impl Iterator<Item = [Vec3; 3]> {
-    polygon.windows(2).skip(1).map(|pair| [polygon[0], pair[0], pair[1]])
-}
-
 /// Weights of all pairs of one sequence, and of those that see each other.
 #[derive(Clone, Copy, Default)]
 struct Sum {
@@ -87,8 +68,8 @@ impl Sum {
     fn add(&mut self, ends: &[(&[Vec3], Vec3); 2], sequence: &Sobol, index: u32, occluders: &impl Occluders) {
         let [x, y, z, w] = core::array::from_fn(|dimension| sequence.dimension(index, dimension));
         let [(from, from_normal), (to, to_normal)] = *ends;
-        let origin = point_of(from, Vec2::new(x, y));
-        let direction = point_of(to, Vec2::new(z, w)) - origin;
+        let origin = point_on_polygon(from, [x, y]);
+        let direction = point_on_polygon(to, [z, w]) - origin;
         let (out, back) = (direction.dot(from_normal), -direction.dot(to_normal));
         if out <= 0.0 || back <= 0.0 {
             return;

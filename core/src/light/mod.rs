@@ -87,3 +87,27 @@ pub struct RectLight {
     /// The light fades to zero here, by the window of [`PointLight::range`].
     pub range: f32,
 }
+
+impl LightSource {
+    /// Intensity in cd of points and spots, illuminance in lx of directional lights, radiance in cd/m2 of rectangles.
+    pub fn strength(&self) -> Vec3 {
+        match self {
+            Self::Point(light) => light.intensity,
+            Self::Spot(light) => light.point.intensity,
+            Self::Directional(light) => light.illuminance,
+            Self::Rect(light) => light.radiance,
+        }
+    }
+
+    /// The same light with this strength.
+    pub fn with_strength(self, strength: Vec3) -> Self {
+        match self {
+            Self::Point(light) => Self::Point(PointLight { intensity: strength, ..light }),
+            Self::Spot(light) => {
+                Self::Spot(SpotLight { point: PointLight { intensity: strength, ..light.point }, ..light })
+            }
+            Self::Directional(light) => Self::Directional(DirectionalLight { illuminance: strength, ..light }),
+            Self::Rect(light) => Self::Rect(RectLight { radiance: strength, ..light }),
+        }
+    }
+}

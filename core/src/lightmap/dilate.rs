@@ -2,87 +2,94 @@
 
 use alloc::vec::Vec;
 
-use glam::Vec3;
-
 use super::{LightmapImage, TexelState};
 use crate::progress::{Cancelled, Progress};
+use crate::transport::{Fills, NEIGHBORS};
 
 /// Rounds around the charts: the gutter, and what block compression mixes in.
 const GUTTER: usize = 4;
 
-/// Fills invalid texels from the valid ones of their chart, then the gutters from all.
+/// Fills invalid texels from the valid ones of their chart, then the gutters from all; returns how, for other light.
 ///
 /// # Errors
 ///
 /// Where the progress was told to cancel.
-pub fn dilate(image: &mut LightmapImage, progress: &Progress) -> Result<(), Cancelled> {
+pub fn dilate(image: &mut LightmapImage, progress: &Progress) -> Result<Fills, Cancelled> {
     let all_in = |image: &LightmapImage, state: TexelState| -> Vec<usize> {
         (0..image.states.len()).filter(|&at| image.states[at] == state).collect()
     };
     let invalid = all_in(image, TexelState::Invalid);
-    let mut known: Vec<bool> = image.states.iter().map(|state| *state == TexelState::Valid).collect();
+    let known = image.states.iter().map(|state| *state == TexelState::Valid).collect();
+    let mut filling = Filling { image, known, fills: Fills { width: image.width, ..Fills::default() } };
     // Inside its chart an invalid texel takes from known ones, ring by ring until nothing changes.
-    let rest = fill(image, &mut known, invalid, true, progress)?;
+    let rest = filling.fill(invalid, true, progress)?;
     let mut front = all_in(image, TexelState::Valid);
     front.extend(all_in(image, TexelState::Invalid));
+    let mut gutter: Vec<usize> = Vec::new();
     for _ in 0..GUTTER {
         progress.check()?;
-        let mut ring: Vec<usize> = front.iter().flat_map(|&at| neighbors(image, at)).collect();
-        ring.retain(|&at| image.states[at] == TexelState::Empty);
+        let mut ring: Vec<usize> = front.iter().flat_map(|&at| neighbors(image, at)).map(|(_, at)| at).collect();
+        ring.retain(|&at| image.states[at] == TexelState::Empty && !filling.known[at]);
         ring.sort_unstable();
         ring.dedup();
-        front = grow(image, &mut known, &ring, false);
-        front.iter().for_each(|&at| image.states[at] = TexelState::Gutter);
+        front = filling.grow(&ring, false);
+        gutter.extend_from_slice(&front);
     }
     // What has no valid texel in its chart takes from whatever is near.
-    fill(image, &mut known, rest, false, progress)?;
-    Ok(())
+    filling.fill(rest, false, progress)?;
+    let fills = filling.fills;
+    gutter.iter().for_each(|&at| image.states[at] = TexelState::Gutter);
+    fills.apply(&mut image.texels);
+    Ok(fills)
 }
 
-/// Ring after ring until nothing changes; returns what could not be reached.
-fn fill(
-    image: &mut LightmapImage,
-    known: &mut [bool],
-    mut wanted: Vec<usize>,
-    same_chart: bool,
-    progress: &Progress,
-) -> Result<Vec<usize>, Cancelled> {
-    while !wanted.is_empty() && !grow(image, known, &wanted, same_chart).is_empty() {
-        progress.check()?;
-        wanted.retain(|&at| !known[at]);
-    }
-    Ok(wanted)
+/// Finds out which texels take from which.
+struct Filling<'a> {
+    image: &'a LightmapImage,
+    known: Vec<bool>,
+    fills: Fills,
 }
 
-/// One ring: those of `wanted` that have known neighbors become their mean. Returns them.
-fn grow(image: &mut LightmapImage, known: &mut [bool], wanted: &[usize], same_chart: bool) -> Vec<usize> {
-    let ring: Vec<(usize, Vec3)> =
-        wanted.iter().filter_map(|&at| Some((at, mean_of_neighbors(image, known, at, same_chart)?))).collect();
-    for &(at, value) in &ring {
-        (image.texels[at], known[at]) = (value, true);
-    }
-    ring.into_iter().map(|(at, _)| at).collect()
-}
-
-fn mean_of_neighbors(image: &LightmapImage, known: &[bool], at: usize, same_chart: bool) -> Option<Vec3> {
-    let (mut sum, mut count) = (Vec3::ZERO, 0);
-    for other in neighbors(image, at) {
-        if known[other] && (!same_chart || image.charts[other] == image.charts[at]) {
-            sum += image.texels[other];
-            count += 1;
+impl Filling<'_> {
+    /// Ring after ring until nothing changes; returns what could not be reached.
+    fn fill(&mut self, mut wanted: Vec<usize>, same_chart: bool, progress: &Progress) -> Result<Vec<usize>, Cancelled> {
+        while !wanted.is_empty() && !self.grow(&wanted, same_chart).is_empty() {
+            progress.check()?;
+            wanted.retain(|&at| !self.known[at]);
         }
+        Ok(wanted)
     }
-    (count > 0).then(|| sum / count as f32)
+
+    /// One ring: those of `wanted` that have known neighbors. Returns them.
+    fn grow(&mut self, wanted: &[usize], same_chart: bool) -> Vec<usize> {
+        let with_sources = wanted.iter().map(|&at| (at, self.sources(at, same_chart)));
+        let ring: Vec<(usize, u8)> = with_sources.filter(|&(_, sources)| sources != 0).collect();
+        for &(at, sources) in &ring {
+            self.known[at] = true;
+            self.fills.texels.push(at as u32);
+            self.fills.from.push(sources);
+        }
+        self.fills.rings.push(self.fills.texels.len() as u32);
+        ring.into_iter().map(|(at, _)| at).collect()
+    }
+
+    /// The known texels around one, a bit each.
+    fn sources(&self, at: usize, same_chart: bool) -> u8 {
+        let charts = &self.image.charts;
+        let is_source =
+            |&(_, other): &(usize, usize)| self.known[other] && (!same_chart || charts[other] == charts[at]);
+        neighbors(self.image, at).filter(is_source).map(|(k, _)| 1 << k).sum()
+    }
 }
 
-/// The up to eight texels around one.
-fn neighbors(image: &LightmapImage, at: usize) -> impl Iterator<Item = usize> + use<> {
+/// The up to eight texels around one, each with its place in [`NEIGHBORS`].
+fn neighbors(image: &LightmapImage, at: usize) -> impl Iterator<Item = (usize, usize)> + use<> {
     let (width, height) = (image.width as i32, image.height as i32);
     let (x, y) = (at as i32 % width, at as i32 / width);
-    (0..9).filter(|&k| k != 4).filter_map(move |k| {
-        let (x, y) = (x + k % 3 - 1, y + k / 3 - 1);
+    NEIGHBORS.iter().enumerate().filter_map(move |(k, &[dx, dy])| {
+        let (x, y) = (x + dx, y + dy);
         let is_inside = x >= 0 && y >= 0 && x < width && y < height;
-        is_inside.then_some((y * width + x) as usize)
+        is_inside.then_some((k, (y * width + x) as usize))
     })
 }
 
@@ -91,6 +98,7 @@ mod tests {
     use super::*;
     use crate::lightmap::NONE;
     use alloc::vec;
+    use glam::Vec3;
 
     /// Two charts of four texels with one invalid texel each, in a row with a gap.
     #[test]

@@ -1,5 +1,6 @@
 //! Light that reaches a texel straight from a source: closed forms times the visible share.
 
+use alloc::vec::Vec;
 use core::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
@@ -40,15 +41,9 @@ pub struct Direct<'a, O> {
 }
 
 impl<O: Occluders> Direct<'_, O> {
-    /// Adds irradiance / pi from one light to all valid texels.
-    pub fn add(
-        &self,
-        light: &DirectLight,
-        irradiance: &mut [Vec3],
-        workers: &Workers,
-        progress: &Progress,
-    ) -> Result<(), Cancelled> {
-        let count = irradiance.len();
+    /// Irradiance / pi from one light for each texel, zero for those that are not valid.
+    pub fn light(&self, light: &DirectLight, workers: &Workers, progress: &Progress) -> Result<Vec<Vec3>, Cancelled> {
+        let count = self.texels.list.len();
         let shares =
             workers.map(count, 512, progress, |range| range.map(|index| self.first_look(light, index)).collect())?;
         let light_of = |index: usize| {
@@ -62,9 +57,7 @@ impl<O: Occluders> Direct<'_, O> {
                 light.irradiance(position, normal) * share.max(0.0)
             }
         };
-        let found = workers.map(count, 512, progress, |range| range.map(light_of).collect())?;
-        irradiance.iter_mut().zip(found).for_each(|(sum, more): (&mut Vec3, Vec3)| *sum += more / PI);
-        Ok(())
+        workers.map(count, 512, progress, |range| range.map(|index| light_of(index) / PI).collect())
     }
 
     /// The visible share of the light from the middle of a texel, by few rays, or [`UNLIT`].
@@ -112,9 +105,8 @@ impl<O: Occluders> Direct<'_, O> {
             let from = point(k);
             let ray = light.shadow_ray(sequence.square(k), from, texel.normal);
             if ray.weight > 0.0 && ray.direction.dot(flat) > 0.0 {
-                let end = if ray.end == 1.0 { 1.0 - 1e-4 } else { ray.end };
-                arrived += ray.weight
-                    * self.tracer.visibility(&self.tracer.leave(texel.triangle, from, flat, ray.direction, end));
+                let visibility = self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray));
+                arrived += ray.weight * visibility;
                 self.tracer.count(1);
             }
             all += ray.weight.max(0.0);

@@ -42,32 +42,39 @@ pub fn filter(
 }
 
 fn filtered(index: usize, gathered: &[Gathered], texels: &Texels, is_valid: &[bool]) -> Smooth {
-    let own = &gathered[index];
-    // Interpolated values and nodes of wide cells are smooth already.
-    let unfiltered = Smooth { irradiance: own.irradiance, variance: own.variance };
-    if own.width != 1 {
-        return unfiltered;
-    }
-    let texel = &texels.list[index];
+    let (mut sum, mut variance, mut weights) = (Vec3::ZERO, 0.0, 0.0);
+    stencil(index, gathered, texels, is_valid, |other, weight| {
+        let node = &gathered[other];
+        sum += node.irradiance * weight;
+        variance += node.variance * weight * weight;
+        weights += weight;
+    });
+    Smooth { irradiance: sum / weights, variance: variance / (weights * weights) }
+}
+
+/// Visits the texels that are mixed into one, each with its weight: at least itself.
+pub fn stencil(
+    index: usize,
+    gathered: &[Gathered],
+    texels: &Texels,
+    is_valid: &[bool],
+    mut visit: impl FnMut(usize, f32),
+) {
+    let (own, texel) = (&gathered[index], &texels.list[index]);
     let sigma = (WIDTH * own.distance / math::sqrt(texel.area.max(1e-12))).min(WIDEST);
-    if sigma < 0.3 {
-        return unfiltered;
+    // Interpolated values and nodes of wide cells are smooth already.
+    if own.width != 1 || sigma < 0.3 {
+        return visit(index, 1.0);
     }
     let reach = (math::ceil(2.0 * sigma) as i32).min(REACH);
-    let (mut sum, mut variance, mut weights) = (Vec3::ZERO, 0.0, 0.0);
     for y in -reach..=reach {
         for x in -reach..=reach {
             let Some(other) = neighbor(texel, texels, is_valid, x, y) else { continue };
-            let node = &gathered[other];
             // Neither mixes far into what the other sees near.
-            let narrow = sigma.min(sigma * node.distance / own.distance.max(1e-9)).max(0.2);
-            let weight = math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow));
-            sum += node.irradiance * weight;
-            variance += node.variance * weight * weight;
-            weights += weight;
+            let narrow = sigma.min(sigma * gathered[other].distance / own.distance.max(1e-9)).max(0.2);
+            visit(other, math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow)));
         }
     }
-    Smooth { irradiance: sum / weights, variance: variance / (weights * weights) }
 }
 
 fn neighbor(texel: &Texel, texels: &Texels, is_valid: &[bool], x: i32, y: i32) -> Option<usize> {

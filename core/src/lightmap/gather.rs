@@ -3,13 +3,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 use super::{Texel, Texels};
 use crate::geometry::{Hit, Occluders, Sobol, cosine_direction, hash};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
-use crate::transport::Tracer;
+use crate::transport::{Keep, Row, Tracer};
 
 /// How densely light is gathered, and with how many rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,9 +20,9 @@ pub struct GatherSettings {
     pub most_rays: u32,
     /// Cells are at most this share of the harmonic mean distance of what their corners see.
     pub spacing: f32,
-    /// Cells whose corners differ by more than this share of their mean are split.
+    /// Cells whose corners differ by more than this share of their mean are split; infinite: none are for that.
     pub contrast: f32,
-    /// Texels whose noise is still above this share of their light get three times as many rays.
+    /// Texels whose noise is still above this share of their light get three times as many rays; 0: all do.
     pub noise: f32,
 }
 
@@ -35,9 +35,9 @@ pub struct Gathered {
     pub variance: f32,
     /// Harmonic mean distance of what was seen, in meters.
     pub distance: f32,
-    /// How many rays; 0: the value is interpolated.
+    /// How many rays; 0: no node, the value is interpolated.
     pub rays: u32,
-    /// Texels for which the node stands, along one side; 0: no node, the value is interpolated.
+    /// Side in texels of the cell for which the node stands, or within whose corners the value is interpolated.
     pub width: u8,
 }
 
@@ -53,18 +53,39 @@ impl Gathered {
     }
 }
 
+/// What was gathered.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Nodes {
+    /// For each texel.
+    pub gathered: Vec<Gathered>,
+    /// For each texel what it sees, where that is kept: empty rows for those that are no nodes.
+    pub rows: Vec<Row>,
+}
+
+impl Nodes {
+    fn new(texels: usize, keep: Keep) -> Self {
+        let rows = match keep {
+            Keep::Lightmaps => 0,
+            Keep::Transport => texels,
+        };
+        Self { gathered: vec![Gathered::default(); texels], rows: vec![Row::default(); rows] }
+    }
+}
+
 /// All that gathering needs to know.
-pub struct Gather<'a, O, R> {
+pub struct Gather<'a, O, C> {
     /// The receivers.
     pub texels: &'a Texels,
     /// Which texels count.
     pub is_valid: &'a [bool],
     /// Sends the rays.
     pub tracer: &'a Tracer<'a, O>,
-    /// Radiance that leaves a hit towards the ray, in cd/m2.
-    pub radiance: R,
-    /// Radiance of what lies beyond the scene.
-    pub sky: Vec3,
+    /// What a ray sees, of which there are so many as `radiance` has entries: the nearest hit, or the sky.
+    pub column: C,
+    /// The radiance of each, in cd/m2.
+    pub radiance: &'a [Vec3A],
+    /// Whether the nodes keep what they see.
+    pub keep: Keep,
     /// How densely.
     pub settings: GatherSettings,
     /// Of all random decisions.
@@ -85,54 +106,59 @@ const TILE: u32 = 8;
 /// The widest cells.
 const WIDEST: u16 = 8;
 
-impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
+impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
     /// Gathers at nodes and interpolates: one entry for each texel, zero for those that are not valid.
     ///
     /// Cells of 8 x 8 texels are split until their corners lie close enough for what they see, down to single texels.
-    pub fn run(&self, workers: &Workers, progress: &Progress) -> Result<Vec<Gathered>, Cancelled> {
-        let mut gathered = vec![Gathered::default(); self.texels.list.len()];
+    pub fn run(&self, workers: &Workers, progress: &Progress) -> Result<Nodes, Cancelled> {
+        let mut nodes = Nodes::new(self.texels.list.len(), self.keep);
         let mut is_done = vec![false; self.texels.list.len()];
         let mut cells = self.widest_cells();
         let mut width = WIDEST;
         while width > 1 {
             let corners = cells.iter().flat_map(|cell| self.corners(cell, width)).flatten();
-            self.gather_at(corners, width as u8, &mut gathered, &mut is_done, workers, progress)?;
+            self.gather_at(corners, width as u8, &mut nodes, &mut is_done, workers, progress)?;
             let mut smaller = Vec::new();
             for cell in &cells {
-                match self.accepted(cell, width, &gathered) {
-                    Some(corners) => self.interpolate(cell, width, corners, &mut gathered, &mut is_done),
+                match self.accepted(cell, width, &nodes.gathered) {
+                    Some(corners) => self.interpolate(cell, width, corners, &mut nodes.gathered, &mut is_done),
                     None => smaller.extend(cell.quarters(width / 2)),
                 }
             }
             cells = smaller;
             width /= 2;
         }
-        let rest = (0..gathered.len()).filter(|&texel| self.is_valid[texel]);
-        self.gather_at(rest, 1, &mut gathered, &mut is_done, workers, progress)?;
-        Ok(gathered)
+        let rest = (0..is_done.len()).filter(|&texel| self.is_valid[texel]);
+        self.gather_at(rest, 1, &mut nodes, &mut is_done, workers, progress)?;
+        Ok(nodes)
     }
 
     fn gather_at(
         &self,
         wanted: impl Iterator<Item = usize>,
         width: u8,
-        gathered: &mut [Gathered],
+        nodes: &mut Nodes,
         is_done: &mut [bool],
         workers: &Workers,
         progress: &Progress,
     ) -> Result<(), Cancelled> {
-        let mut nodes: Vec<usize> = Vec::new();
+        let mut new: Vec<usize> = Vec::new();
         for texel in wanted {
             if !is_done[texel] {
                 is_done[texel] = true;
-                nodes.push(texel);
+                new.push(texel);
             }
         }
         let rays = (self.settings.rays * u32::from(width) * u32::from(width)).min(self.settings.most_rays);
-        let found = workers.map(nodes.len(), 32, progress, |range| {
-            nodes[range].iter().map(|&texel| Gathered { width, ..self.node(texel, rays, self.seed) }).collect()
+        let found = workers.map(new.len(), 32, progress, |range| {
+            new[range].iter().map(|&texel| self.node(texel, rays, self.seed)).collect()
         })?;
-        nodes.into_iter().zip(found).for_each(|(texel, node)| gathered[texel] = node);
+        for (texel, (gathered, row)) in new.into_iter().zip(found) {
+            nodes.gathered[texel] = Gathered { width, ..gathered };
+            if let Some(kept) = nodes.rows.get_mut(texel) {
+                *kept = row;
+            }
+        }
         Ok(())
     }
 
@@ -141,21 +167,28 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
     /// `light` is the mean level of all light at a texel, plus a tenth of the mean of all: what noise is seen against.
     pub fn refine(
         &self,
-        gathered: &mut [Gathered],
+        nodes: &mut Nodes,
         light: impl Fn(usize) -> f32,
         workers: &Workers,
         progress: &Progress,
     ) -> Result<(), Cancelled> {
+        let gathered = &nodes.gathered;
         let is_noisy = |&texel: &usize| {
             let limit = self.settings.noise * light(texel);
-            gathered[texel].width == 1 && self.variance_around(texel, gathered) > limit * limit
+            let node = &gathered[texel];
+            node.rays > 0 && node.width == 1 && self.variance_around(texel, gathered) >= limit * limit
         };
         let noisy: Vec<usize> = (0..gathered.len()).filter(is_noisy).collect();
         let found = workers.map(noisy.len(), 16, progress, |range| {
             let more = 2 * self.settings.rays;
             noisy[range].iter().map(|&texel| self.node(texel, more, hash(self.seed, 1))).collect()
         })?;
-        noisy.into_iter().zip(found).for_each(|(texel, more): (usize, Gathered)| gathered[texel].merge(&more));
+        for (texel, (more, row)) in noisy.into_iter().zip(found) {
+            nodes.gathered[texel].merge(&more);
+            if let Some(kept) = nodes.rows.get_mut(texel) {
+                *kept = kept.merge(&row);
+            }
+        }
         Ok(())
     }
 
@@ -179,37 +212,37 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
     ///
     /// The texels of a tile share a sequence and take one run of its points after the other: each run fills the
     /// hemisphere evenly, and so do all runs of neighbors together, which is what the filter mixes.
-    fn node(&self, index: usize, rays: u32, seed: u32) -> Gathered {
+    fn node(&self, index: usize, rays: u32, seed: u32) -> (Gathered, Row) {
         let texel = &self.texels.list[index];
         let (tile, place) = self.place_in_tile(texel);
         let flat = self.tracer.world.normals[texel.triangle as usize];
-        let mut halves = [Vec3::ZERO; 2];
+        let mut halves = [Vec3A::ZERO; 2];
         let mut inverse_distances = 0.0;
+        let mut seen = Vec::new();
         for (half, sum) in halves.iter_mut().enumerate() {
             let seed = hash(hash(seed, half as u32), tile);
             let sequence = Sobol::new(seed);
             for k in place * (rays / 2)..(place + 1) * (rays / 2) {
                 let direction = above(cosine_direction(sequence.square(k), texel.normal), flat);
                 let ray = self.tracer.leave(texel.triangle, texel.position, flat, direction, f32::INFINITY);
-                match self.tracer.nearest(&ray, hash(seed, k)) {
-                    Some(hit) => {
-                        inverse_distances += 1.0 / hit.distance.max(1e-6);
-                        *sum += (self.radiance)(&hit);
-                    }
-                    None => *sum += self.sky,
-                }
+                let hit = self.tracer.nearest(&ray, hash(seed, k));
+                inverse_distances += hit.map_or(0.0, |hit| 1.0 / hit.distance.max(1e-6));
+                let column = (self.column)(hit.as_ref());
+                *sum += self.radiance[column as usize];
+                self.keep.push(column, &mut seen);
             }
         }
         self.tracer.count(rays as usize);
         let half = (rays / 2) as f32;
         let [a, b] = halves.map(|sum| sum / half);
-        Gathered {
-            irradiance: (a + b) * 0.5,
+        let gathered = Gathered {
+            irradiance: ((a + b) * 0.5).into(),
             variance: (a - b).length_squared() / 12.0,
             distance: 2.0 * half / f32::max(inverse_distances, 1e-9),
             rays,
             width: 0,
-        }
+        };
+        (gathered, Row::count(&mut seen))
     }
 
     /// The tile of a texel, and its place on a Z-curve through the tile.
@@ -281,7 +314,7 @@ impl<O: Occluders, R: Fn(&Hit) -> Vec3 + Sync> Gather<'_, O, R> {
                 };
                 let irradiance = [a, b, c, d].iter().zip(weights).map(|(node, weight)| node.irradiance * weight).sum();
                 let (variance, distance) = (mix(|node| node.variance), mix(|node| node.distance));
-                all[texel] = Gathered { irradiance, variance, distance, rays: 0, width: 0 };
+                all[texel] = Gathered { irradiance, variance, distance, rays: 0, width: width as u8 };
                 is_done[texel] = true;
             }
         }

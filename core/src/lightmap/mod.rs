@@ -1,6 +1,7 @@
 //! From charts to the finished lightmaps.
 
 mod atlas;
+mod blend;
 mod chart;
 mod clip;
 mod dilate;
@@ -21,6 +22,7 @@ mod unwrap;
 mod unwrap;
 mod validity;
 
+pub use blend::*;
 pub use dilate::*;
 pub use direct::*;
 pub use filter::*;

@@ -1,5 +1,7 @@
 //! What a material is at one point of a surface.
 
+use alloc::string::String;
+
 use glam::{Vec2, Vec3, Vec4};
 
 use super::{AlphaMode, Material, Texture, TextureRef, UvSet};
@@ -12,6 +14,17 @@ impl Material {
         let base = self.base_color_at(textures, uv_0, uv_1, color).truncate();
         let metallic = self.metallic * lookup(&self.metallic_texture, textures, uv_0, uv_1).z;
         base.map(saturate) * (1.0 - saturate(metallic))
+    }
+
+    /// Reflectance there if the base color were white, in `[0, 1]`: what textures and vertex colors make of it.
+    pub fn reflectance_of_white_at(&self, textures: &[Texture], uv_0: Vec2, uv_1: Vec2, color: Vec4) -> Vec3 {
+        let white = Self { base_color: Vec4::ONE, name: String::new(), ..*self };
+        white.reflectance_at(textures, uv_0, uv_1, color)
+    }
+
+    /// What the texture makes of `emissive` there, not negative.
+    pub fn emission_of_white_at(&self, textures: &[Texture], uv_0: Vec2, uv_1: Vec2) -> Vec3 {
+        lookup(&self.emissive_texture, textures, uv_0, uv_1).truncate().map(|channel| channel.max(0.0))
     }
 
     /// Share of the light that is blocked there, in `[0, 1]`.
@@ -27,8 +40,7 @@ impl Material {
 
     /// Emitted radiance in cd/m2 per linear RGB channel, not negative.
     pub fn emission_at(&self, textures: &[Texture], uv_0: Vec2, uv_1: Vec2) -> Vec3 {
-        let emitted = self.emissive * lookup(&self.emissive_texture, textures, uv_0, uv_1).truncate();
-        emitted.map(|channel| channel.max(0.0))
+        self.emissive.max(Vec3::ZERO) * self.emission_of_white_at(textures, uv_0, uv_1)
     }
 
     /// Whether no light passes anywhere.
@@ -74,7 +86,6 @@ fn saturate(x: f32) -> f32 {
 mod tests {
     use super::super::{Filter, Texels, Wrap};
     use super::*;
-    use alloc::string::String;
     use alloc::vec;
     use glam::Affine2;
 

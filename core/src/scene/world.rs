@@ -120,6 +120,18 @@ impl<'a> World<'a> {
         self.material(hit.triangle).reflectance_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
     }
 
+    /// What textures and vertex colors make of a white base color at a hit, in `[0, 1]`.
+    pub fn reflectance_of_white(&self, hit: &Hit) -> Vec3 {
+        let [uv_0, uv_1] = self.uvs(hit);
+        self.material(hit.triangle).reflectance_of_white_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
+    }
+
+    /// What textures make of the emitted radiance of a material at a hit, not negative.
+    pub fn emission_of_white(&self, hit: &Hit) -> Vec3 {
+        let [uv_0, uv_1] = self.uvs(hit);
+        self.material(hit.triangle).emission_of_white_at(&self.scene.textures, uv_0, uv_1)
+    }
+
     /// Emitted radiance at a hit, in cd/m2.
     pub fn emission(&self, hit: &Hit) -> Vec3 {
         let material = self.material(hit.triangle);

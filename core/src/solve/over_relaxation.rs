@@ -22,8 +22,21 @@ pub fn over_relaxation<S: Spectrum, F: FormFactors<Scalar = S::Scalar>>(
 /// `(|1 - omega| / omega + c) |d|`.
 #[derive(Clone, Copy, Debug)]
 pub struct OverRelaxation<R> {
-    /// How far to go, in `(0, 2)`.
+    /// How far to go, in `(0, 2)`; typically 1.2 to 1.6.
     pub omega: R,
+}
+
+impl<R: Real> OverRelaxation<R> {
+    /// `omega = 2 / (1 + sqrt(1 - c))` for the brightest band, at most 1.9.
+    ///
+    /// Found by measuring: in a cube of 294 patches with `rho` 0.5, 0.8, 0.9, 0.95 and 0.98 the fewest sweeps are those
+    /// of 1.1, 1.3, 1.5, 1.6 and 1.7, where this gives 1.17, 1.38, 1.52, 1.63 and 1.75; too little costs more sweeps
+    /// than too much.
+    pub fn new<S: Spectrum<Scalar = R>, F>(system: &System<S, F>) -> Self {
+        let [one, two] = [1.0, 2.0].map(R::from_f64);
+        let root = (one - system.decay.radius().max_abs()).max(R::ZERO).sqrt();
+        Self { omega: (two / (one + root)).min(R::from_f64(1.9)) }
+    }
 }
 
 impl<S: Spectrum, F: FormFactors<Scalar = S::Scalar>> Solver<S, F> for OverRelaxation<S::Scalar> {

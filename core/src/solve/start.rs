@@ -1,6 +1,7 @@
 //! Starts that know more than zero: patches as local lighting shows them.
 
 use super::System;
+use crate::form_factor::point_to_point;
 use crate::math::{Real, Vector};
 use crate::spectrum::Spectrum;
 
@@ -62,11 +63,10 @@ impl<V: Vector<Scalar = S::Scalar>, S: Spectrum> Lamp<V, S> {
 impl<V: Vector> Facet<V, V::Scalar> {
     /// The form factor from another facet to this one; zero where one is behind the other.
     fn seen_from(&self, other: &Self) -> V::Scalar {
-        let towards = self.center - other.center;
-        let direction = towards.normalize_or_zero();
-        let cosines = (other.normal.dot(direction), -self.normal.dot(direction));
-        if cosines.0 > V::Scalar::ZERO && cosines.1 > V::Scalar::ZERO {
-            cosines.0 * cosines.1 * self.area / (V::Scalar::PI * towards.length_squared() + self.area)
+        let squared = (self.center - other.center).length_squared();
+        let of_points = point_to_point(other.center, other.normal, self.center, self.normal, self.area);
+        if of_points > V::Scalar::ZERO {
+            of_points / (V::Scalar::ONE + self.area / (V::Scalar::PI * squared))
         } else {
             V::Scalar::ZERO
         }

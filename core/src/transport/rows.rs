@@ -1,130 +1,213 @@
-//! Form factors as counts of rays: a row for each patch, exact in its sum.
+//! Shares as counts: sparse rows of four bytes an entry, each exact in its sum.
 
 use alloc::vec::Vec;
 
+use glam::Vec3A;
+
 use crate::solve::FormFactors;
 
-/// Where a ray from a patch ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum End {
-    /// On a patch.
-    Patch(u32),
-    /// Nowhere: it leaves the scene and sees the sky.
-    Sky,
-    /// On a surface that reflects nothing.
-    Black,
-}
+/// The bits of an entry that count; the others are the distance from the column before.
+const COUNT_BITS: u32 = 8;
+const MOST_COUNT: u32 = (1 << COUNT_BITS) - 1;
+const MOST_DISTANCE: u32 = (1 << (32 - COUNT_BITS)) - 1;
 
-/// The form factors between patches. Each row sums to one with its sky and its black bin: both are counts.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// A sparse matrix whose rows sum to one: each entry is a count over the count of its row.
+///
+/// An entry is a `u32`: 24 bits for how far its column lies behind the one before it, 8 bits for the count. Larger
+/// counts and distances take several entries.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Rows {
-    starts: Vec<usize>,
-    entries: Vec<Entry>,
-    rows: Vec<Row>,
+    /// Where in `entries` each row ends.
+    pub(super) ends: Vec<u64>,
+    pub(super) entries: Vec<u32>,
+    /// The counts of each row together; 0: the row is empty.
+    pub(super) totals: Vec<u32>,
 }
 
-/// How many rays of a row end on one patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Entry {
-    patch: u32,
-    count: u32,
-}
-
-/// What of a row does not end on a patch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// One row of [`Rows`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Row {
-    /// Rays that leave the scene.
-    pub sky: u32,
-    /// Rays that end on a surface that reflects nothing.
-    pub black: u32,
-    /// All rays of the row.
-    pub total: u32,
+    entries: Vec<u32>,
+    total: u32,
 }
 
-/// The rays of one patch, sorted and counted.
-#[derive(Clone, Debug, Default)]
-pub struct RowCounts {
-    entries: Vec<Entry>,
-    row: Row,
-}
+impl Row {
+    /// Counts how often each column occurs; `columns` gets sorted.
+    pub fn count(columns: &mut [u32]) -> Self {
+        columns.sort_unstable();
+        Self::new(columns.chunk_by(|a, b| a == b).map(|same| (same[0], same.len() as u32)))
+    }
 
-impl RowCounts {
-    /// Counts the ends of the rays of one patch; `ends` gets sorted.
-    pub fn new(ends: &mut [End]) -> Self {
-        ends.sort_unstable();
-        let mut counts = Self { entries: Vec::new(), row: Row { total: ends.len() as u32, ..Row::default() } };
-        for same in ends.chunk_by(|a, b| a == b) {
-            let count = same.len() as u32;
-            match same[0] {
-                End::Patch(patch) => counts.entries.push(Entry { patch, count }),
-                End::Sky => counts.row.sky = count,
-                End::Black => counts.row.black = count,
-            }
+    /// A row of weights that are not negative, each rounded to 1/255 of the largest; `weights` gets sorted.
+    pub fn weigh(weights: &mut [(u32, f32)]) -> Self {
+        weights.sort_unstable_by_key(|&(column, _)| column);
+        let of_column = |same: &[(u32, f32)]| (same[0].0, same.iter().map(|&(_, weight)| weight).sum::<f32>());
+        let sums = weights.chunk_by(|a, b| a.0 == b.0).map(of_column);
+        let largest = sums.clone().map(|(_, weight)| weight).fold(f32::MIN_POSITIVE, f32::max);
+        let rounded = sums.map(|(column, weight)| (column, (weight / largest * MOST_COUNT as f32 + 0.5) as u32));
+        Self::new(rounded.filter(|&(_, count)| count > 0))
+    }
+
+    /// The counts of two rows together.
+    pub fn merge(&self, other: &Self) -> Self {
+        let mut all: Vec<(u32, u32)> = decode(&self.entries).chain(decode(&other.entries)).collect();
+        all.sort_unstable_by_key(|&(column, _)| column);
+        let sum = |same: &[(u32, u32)]| (same[0].0, same.iter().map(|&(_, count)| count).sum());
+        Self::new(all.chunk_by(|a, b| a.0 == b.0).map(sum))
+    }
+
+    /// A row of columns, in their order, and counts.
+    fn new(counts: impl Iterator<Item = (u32, u32)>) -> Self {
+        let (mut row, mut last) = (Self::default(), 0);
+        for (column, count) in counts {
+            row.push(column - last, count);
+            last = column;
         }
-        counts
+        row
+    }
+
+    fn push(&mut self, mut distance: u32, mut count: u32) {
+        self.total += count;
+        while distance > MOST_DISTANCE {
+            self.entries.push(MOST_DISTANCE << COUNT_BITS);
+            distance -= MOST_DISTANCE;
+        }
+        while count > MOST_COUNT {
+            self.entries.push(distance << COUNT_BITS | MOST_COUNT);
+            (distance, count) = (0, count - MOST_COUNT);
+        }
+        self.entries.push(distance << COUNT_BITS | count);
     }
 }
 
-impl FromIterator<RowCounts> for Rows {
-    fn from_iter<I: IntoIterator<Item = RowCounts>>(rows: I) -> Self {
-        let mut all = Self { starts: alloc::vec![0], ..Self::default() };
-        for RowCounts { entries, row } in rows {
+impl FromIterator<Row> for Rows {
+    fn from_iter<I: IntoIterator<Item = Row>>(rows: I) -> Self {
+        let mut all = Self::default();
+        for Row { entries, total } in rows {
             all.entries.extend(entries);
-            all.starts.push(all.entries.len());
-            all.rows.push(row);
+            all.ends.push(all.entries.len() as u64);
+            all.totals.push(total);
         }
         all
     }
 }
 
 impl Rows {
-    /// What of row `i` does not end on a patch.
-    pub fn row(&self, i: usize) -> Row {
-        self.rows[i]
+    /// The number of rows.
+    pub fn len(&self) -> usize {
+        self.ends.len()
     }
 
-    /// The form factor from patch `i` to the sky.
-    pub fn sky(&self, i: usize) -> f32 {
-        self.rows[i].sky as f32 / self.rows[i].total.max(1) as f32
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
     }
 
-    /// The form factor from patch `i` to all that reflects nothing, the sky not included.
-    pub fn black(&self, i: usize) -> f32 {
-        self.rows[i].black as f32 / self.rows[i].total.max(1) as f32
+    /// The number of entries of all rows.
+    pub fn entries(&self) -> usize {
+        self.entries.len()
     }
 
-    /// The largest difference between one and the sum of a row with its bins.
+    /// What the rows take, in bytes.
+    pub fn bytes(&self) -> usize {
+        4 * self.entries.len() + 12 * self.ends.len()
+    }
+
+    /// The mean of `values` by the shares of row `i`; zero where it is empty.
+    #[inline]
+    pub fn mean(&self, i: usize, values: &[Vec3A]) -> Vec3A {
+        let mut sum = Vec3A::ZERO;
+        for (column, count) in decode(self.row_entries(i)) {
+            sum += values[column as usize] * count as f32;
+        }
+        sum / self.totals[i].max(1) as f32
+    }
+
+    /// The share of column `j` in row `i`.
+    pub fn share(&self, i: usize, j: u32) -> f32 {
+        let counts = decode(self.row_entries(i)).filter(|&(column, _)| column == j).map(|(_, count)| count);
+        counts.sum::<u32>() as f32 / self.totals[i].max(1) as f32
+    }
+
+    /// The largest difference between one and the sum of the shares of a row that is not empty.
     pub fn closure_error(&self) -> f32 {
-        let error = |i: usize| {
-            let Row { sky, black, total } = self.rows[i];
-            let hits: u32 = self.entries[self.starts[i]..self.starts[i + 1]].iter().map(|entry| entry.count).sum();
-            (1.0 - (hits + sky + black) as f32 / total.max(1) as f32).abs()
-        };
-        (0..self.rows.len()).filter(|&i| self.rows[i].total > 0).map(error).fold(0.0, f32::max)
+        let sum = |i: usize| decode(self.row_entries(i)).map(|(_, count)| count).sum::<u32>() as f32;
+        let rows = (0..self.len()).filter(|&i| self.totals[i] > 0);
+        rows.map(|i| (1.0 - sum(i) / self.totals[i] as f32).abs()).fold(0.0, f32::max)
     }
+
+    /// Whether all rows lie within the entries and all columns are below `columns`: what a file must show.
+    pub(super) fn is_sound(&self, columns: usize) -> bool {
+        let in_order = self.ends.is_sorted() && self.ends.last().map_or(0, |&end| end) == self.entries.len() as u64;
+        let is_sound = |i: usize| {
+            let entries = self.row_entries(i);
+            let last: u64 = entries.iter().map(|entry| u64::from(entry >> COUNT_BITS)).sum();
+            let total: u64 = entries.iter().map(|entry| u64::from(entry & MOST_COUNT)).sum();
+            (entries.is_empty() || last < columns as u64) && total == u64::from(self.totals[i])
+        };
+        in_order && self.totals.len() == self.len() && (0..self.len()).all(is_sound)
+    }
+
+    #[inline]
+    fn row_entries(&self, i: usize) -> &[u32] {
+        let start = if i == 0 { 0 } else { self.ends[i - 1] };
+        &self.entries[start as usize..self.ends[i] as usize]
+    }
+}
+
+/// The columns and counts of a row.
+#[inline]
+fn decode(entries: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone + '_ {
+    entries.iter().scan(0_u32, |column, &entry| {
+        *column = column.wrapping_add(entry >> COUNT_BITS);
+        Some((*column, entry & MOST_COUNT))
+    })
 }
 
 impl FormFactors for Rows {
     type Scalar = f32;
 
     fn row(&self, i: usize, mut entry: impl FnMut(usize, f32)) {
-        let share = 1.0 / self.rows[i].total.max(1) as f32;
-        let entries = &self.entries[self.starts[i]..self.starts[i + 1]];
-        entries.iter().for_each(|&Entry { patch, count }| entry(patch as usize, count as f32 * share));
+        let share = 1.0 / self.totals[i].max(1) as f32;
+        decode(self.row_entries(i)).for_each(|(column, count)| entry(column as usize, count as f32 * share));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::vec;
 
     #[test]
     fn rows_are_counts() {
-        let mut ends = [End::Patch(3), End::Sky, End::Patch(1), End::Patch(3), End::Black, End::Patch(3)];
-        let rows: Rows = [RowCounts::new(&mut ends), RowCounts::new(&mut [])].into_iter().collect();
-        assert_eq!(rows.row(0), Row { sky: 1, black: 1, total: 6 });
-        assert!((rows.receive(0, &[0.0_f32, 2.0, 0.0, 4.0]) - (2.0 + 3.0 * 4.0) / 6.0).abs() < 1e-6);
-        assert_eq!(rows.receive(1, &[1.0_f32; 4]), 0.0);
+        let rows: Rows = [Row::count(&mut [3, 4, 1, 3, 5, 3]), Row::count(&mut [])].into_iter().collect();
+        assert_eq!((rows.share(0, 3), rows.share(0, 0), rows.share(1, 0)), (0.5, 0.0, 0.0));
+        let values = [0.0, 2.0, 0.0, 4.0, 0.0, 6.0].map(Vec3A::splat);
+        assert!((rows.mean(0, &values).x - (2.0 + 3.0 * 4.0 + 6.0) / 6.0).abs() < 1e-6);
+        assert_eq!(rows.mean(1, &values), Vec3A::ZERO);
+        assert!((rows.receive::<f32>(0, &[0.0, 2.0, 0.0, 4.0, 0.0, 6.0]) - 20.0 / 6.0).abs() < 1e-6);
         assert_eq!(rows.closure_error(), 0.0);
+        assert!(rows.is_sound(6) && !rows.is_sound(5));
+    }
+
+    /// Counts above 8 bits and distances above 24 bits are as good as small ones.
+    #[test]
+    fn large_counts_and_distances() {
+        let far = 3 * MOST_DISTANCE + 7;
+        let mut columns = vec![far; 1000];
+        columns.push(2);
+        let row = Row::count(&mut columns);
+        assert_eq!(row.entries.len(), 1 + 3 + 4);
+        let rows: Rows = [row.merge(&Row::count(&mut [2, 2]))].into_iter().collect();
+        assert_eq!((rows.share(0, 2), rows.share(0, far)), (3.0 / 1003.0, 1000.0 / 1003.0));
+        assert_eq!(rows.closure_error(), 0.0);
+    }
+
+    #[test]
+    fn weights_are_shares_to_a_part_of_the_largest() {
+        let rows: Rows = [Row::weigh(&mut [(7, 0.3), (2, 0.5), (7, 0.1), (9, 0.0001), (4, 0.1)])].into_iter().collect();
+        for (column, share) in [(2, 0.5), (7, 0.4), (9, 0.0), (4, 0.1)] {
+            assert!((rows.share(0, column) - share).abs() < 0.002);
+        }
     }
 }

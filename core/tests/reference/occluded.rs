@@ -159,14 +159,7 @@ const HALF_PLANE: &[Point] = &up([-1e4, 0.0], ENDLESS, 1.0);
 
 /// An endless strip 1 wide at height 2, half of it behind an endless half-plane at height 1.
 const fn penumbra(name: &'static str, x: f64, factor: f64) -> OccludedPoint {
-    OccludedPoint {
-        name,
-        point: [x, 0.0, 0.0],
-        polygon: STRIP,
-        blocker: HALF_PLANE,
-        factor,
-        tolerance: 1e-12,
-    }
+    OccludedPoint { name, point: [x, 0.0, 0.0], polygon: STRIP, blocker: HALF_PLANE, factor, tolerance: 1e-12 }
 }
 
 pub const POINTS: &[OccludedPoint] = &[

@@ -1,0 +1,206 @@
+//! Surfaces in pieces: their materials, what they see of each other, and the direct light of those without texels.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::f32::consts::PI;
+
+use glam::{Vec2, Vec3};
+
+use crate::geometry::{Hit, Occluders, Sobol, cosine_direction, hash};
+use crate::light::DirectLight;
+use crate::lightmap::{NONE, Patch, Patches, Site, Texels};
+use crate::math;
+use crate::parallel::Workers;
+use crate::progress::{Cancelled, Progress};
+use crate::scene::World;
+use crate::transport::{Cells, Codes, Row, Rows, Surfaces, Tracer};
+
+/// Points of a patch from which direct light is looked for where it has no texels to average.
+const DIRECT_POINTS: u32 = 16;
+
+/// Texels and patches, and what looks at them.
+pub(super) struct Pieces<'a, O> {
+    pub tracer: &'a Tracer<'a, O>,
+    pub texels: &'a Texels,
+    pub patches: &'a Patches,
+    pub workers: &'a Workers,
+    pub progress: &'a Progress,
+    pub seed: u32,
+}
+
+impl<O: Occluders> Pieces<'_, O> {
+    fn world(&self) -> &World<'_> {
+        self.tracer.world
+    }
+
+    /// Rows of form factors: `rays` from each patch. The sky and the black see nothing.
+    pub fn rows(&self, rays: u32, surfaces: &Surfaces) -> Result<Rows, Cancelled> {
+        let rows = self.workers.map(self.patches.list.len(), 32, self.progress, |range| {
+            range.map(|patch| self.row(patch, rays, surfaces)).collect()
+        })?;
+        Ok(rows.into_iter().chain([Row::default(), Row::default()]).collect())
+    }
+
+    fn row(&self, index: usize, rays: u32, surfaces: &Surfaces) -> Row {
+        let patch = &self.patches.list[index];
+        let seed = hash(self.seed, index as u32);
+        let sequence = Sobol::new(seed);
+        let end = |k: u32| {
+            let (triangle, point, normal) = self.patches.point(self.world(), self.texels, patch, &sequence, k);
+            let direction = cosine_direction(sequence.square(k), normal);
+            let ray = self.tracer.leave(triangle, point, normal, direction, f32::INFINITY);
+            match self.tracer.nearest(&ray, hash(seed, k)) {
+                None => surfaces.sky(),
+                Some(hit) => self.patches.at(self.world(), self.texels, &hit).unwrap_or(surfaces.black()),
+            }
+        };
+        let mut ends: Vec<u32> = (0..rays).map(end).collect();
+        self.tracer.count(rays as usize);
+        Row::count(&mut ends)
+    }
+
+    /// What the surfaces do with light. `is_light` tells which of them are lamps, whose emission counts as direct light.
+    pub fn surfaces(&self, is_light: &[bool]) -> Result<Surfaces, Cancelled> {
+        let black = self.patches.list.len() as u32 + 1;
+        let of_texel = &self.patches.of_texel;
+        let texel_area = |texel: usize| if of_texel[texel] == NONE { 0.0 } else { self.texels.list[texel].area };
+        let details = self.details(is_light)?;
+        let around = self
+            .workers
+            .map(of_texel.len(), 4096, self.progress, |range| range.map(|texel| self.around(texel)).collect())?;
+        let codes = |which: usize| {
+            let numbers: Vec<f32> = details.iter().flat_map(|detail| detail[which].to_array()).collect();
+            Codes::new(&numbers)
+        };
+        Ok(Surfaces {
+            areas: self.patches.list.iter().map(|patch| patch.area).collect(),
+            materials: self.patches.list.iter().map(|patch| self.material(patch)).collect(),
+            bare: (0..black - 1).filter(|&patch| self.is_bare(&self.patches.list[patch as usize])).collect(),
+            patch_of: of_texel.iter().map(|&patch| if patch == NONE { black } else { patch }).collect(),
+            texel_areas: (0..of_texel.len()).map(texel_area).collect(),
+            reflectance: codes(0),
+            emission: codes(1),
+            cells: [self.cells(4), self.cells(2)],
+            around: around.into_iter().collect(),
+        })
+    }
+
+    /// For texels, then patches, what textures make of reflectance and emission.
+    fn details(&self, is_light: &[bool]) -> Result<Vec<[Vec3; 2]>, Cancelled> {
+        let texels = self.workers.map(self.texels.list.len(), 1024, self.progress, |range| {
+            range.map(|texel| self.detail(&self.texels.hit(texel as u32), is_light)).collect()
+        })?;
+        let mean = |patch: &Patch| {
+            let mut sums = [Vec3::ZERO; 2];
+            for (site, area) in self.patches.sites(patch) {
+                let detail = match site {
+                    Site::Texel(texel) => texels[texel as usize],
+                    Site::Triangle(triangle) => self.detail(&middle(triangle), is_light),
+                };
+                (0..2).for_each(|which| sums[which] += detail[which] * area);
+            }
+            sums.map(|sum| sum / patch.area)
+        };
+        let patches: Vec<[Vec3; 2]> = self.patches.list.iter().map(mean).collect();
+        Ok(texels.iter().chain(&patches).copied().collect())
+    }
+
+    fn detail(&self, hit: &Hit, is_light: &[bool]) -> [Vec3; 2] {
+        let surface = self.world().sources[hit.triangle as usize].surface;
+        let emission = if is_light[surface as usize] { Vec3::ZERO } else { self.world().emission_of_white(hit) };
+        [self.world().reflectance_of_white(hit), emission]
+    }
+
+    fn material(&self, patch: &Patch) -> u32 {
+        let triangle = match self.patches.sites(patch).next() {
+            Some((Site::Texel(texel), _)) => self.texels.list[texel as usize].triangle,
+            Some((Site::Triangle(triangle), _)) => triangle,
+            None => return 0,
+        };
+        let world = self.world();
+        world.scene.surfaces[world.sources[triangle as usize].surface as usize].material as u32
+    }
+
+    /// Whether no texels lie on the side of a patch.
+    fn is_bare(&self, patch: &Patch) -> bool {
+        patch.side < 0.0 || matches!(self.patches.sites(patch).next(), Some((Site::Triangle(_), _)))
+    }
+
+    /// The groups of texels that share a patch and a square of this side. They are counted as their texels come.
+    fn cells(&self, side: u16) -> Cells {
+        let (mut count, mut open) = (0, Vec::new());
+        let mut block = [u16::MAX; 3];
+        let of_texel = self.texels.list.iter().zip(&self.patches.of_texel).map(|(texel, &patch)| {
+            let square = texel.pixel.map(|position| position / side);
+            let now = [texel.image, texel.pixel[0] / 8, texel.pixel[1] / 8];
+            if now != block {
+                // Texels come block by block.
+                open.clear();
+                block = now;
+            }
+            let key = (square, patch);
+            let known = open.iter().find(|(other, _)| *other == key).map(|&(_, cell)| cell);
+            known.unwrap_or_else(|| {
+                open.push((key, count));
+                count += 1;
+                count - 1
+            })
+        });
+        let of_texel = of_texel.collect();
+        Cells { of_texel, count }
+    }
+
+    /// Weights of the patches around a texel, bilinear, as far as they belong to its chart.
+    fn around(&self, index: usize) -> Row {
+        let (texel, of_texel) = (&self.texels.list[index], &self.patches.of_texel);
+        if of_texel[index] == NONE {
+            return Row::default();
+        }
+        let (cell, half) = (self.patches.cell as f32, (self.patches.cell / 2) as i32);
+        let along = texel.pixel.map(|position| {
+            let shifted = (f32::from(position) + 0.5) / cell + 0.5;
+            shifted - math::floor(shifted)
+        });
+        let mut weights = Vec::new();
+        for k in 0..4 {
+            let (right, lower) = (k & 1, k >> 1);
+            let x = i32::from(texel.pixel[0]) + (2 * right - 1) * half;
+            let y = i32::from(texel.pixel[1]) + (2 * lower - 1) * half;
+            let Some(other) = self.texels.at_pixel(u32::from(texel.image), x, y) else { continue };
+            let patch = of_texel[other as usize];
+            if patch != NONE && self.texels.list[other as usize].chart == texel.chart {
+                let share = |along: f32, side: i32| if side == 1 { along } else { 1.0 - along };
+                weights.push((patch, share(along[0], right) * share(along[1], lower)));
+            }
+        }
+        if weights.iter().all(|&(_, weight)| weight <= 0.0) {
+            weights = vec![(of_texel[index], 1.0)];
+        }
+        Row::weigh(&mut weights)
+    }
+
+    /// Irradiance / pi from a light on a patch without texels on its side, from a few points of it.
+    pub fn direct_on(&self, index: u32, light: &DirectLight) -> Vec3 {
+        let patch = &self.patches.list[index as usize];
+        let sequence = Sobol::new(hash(self.seed ^ 0x00d1_9ec7, index));
+        let mut sum = Vec3::ZERO;
+        for k in 0..DIRECT_POINTS {
+            let (triangle, point, normal) = self.patches.point(self.world(), self.texels, patch, &sequence, k);
+            let irradiance = light.irradiance(point, normal);
+            if irradiance == Vec3::ZERO {
+                continue;
+            }
+            let shadow = light.shadow_ray(sequence.square(k), point, normal);
+            if shadow.weight > 0.0 {
+                let ray = self.tracer.leave_for(triangle, point, normal, &shadow);
+                sum += irradiance * self.tracer.visibility(&ray);
+                self.tracer.count(1);
+            }
+        }
+        sum / (DIRECT_POINTS as f32 * PI)
+    }
+}
+
+fn middle(triangle: u32) -> Hit {
+    Hit { triangle, distance: 0.0, barycentric: Vec2::splat(1.0 / 3.0), front: true }
+}
