@@ -2,7 +2,7 @@
 //!
 //! A [`Patch`] is what can be cut: a triangle, a quad, a spline surface. An [`Element`] is a flat piece of it that has
 //! one radiosity. [`uniform`] cuts all alike; [`by_proximity`] cuts finer where much light is expected to be exchanged,
-//! before anything is solved; [`Solution::refine`] cuts where the solution varies. A [`Field`] puts a continuous
+//! before anything is solved; [`Enclosure::refine`] cuts where the solution varies. A [`Field`] puts a continuous
 //! function through the result, for pictures.
 //!
 //! The patches of texels that a bake solves on are others: `lightmap::Patches`.
@@ -20,7 +20,7 @@ mod exchange;
 #[cfg(feature = "alloc")]
 mod reconstruct;
 #[cfg(feature = "alloc")]
-mod solution;
+mod enclosure;
 #[cfg(feature = "alloc")]
 mod topology;
 
@@ -28,13 +28,13 @@ mod topology;
 pub use adaptive::*;
 pub use element::*;
 #[cfg(feature = "alloc")]
+pub use enclosure::*;
+#[cfg(feature = "alloc")]
 pub use exchange::*;
 pub use proximity::*;
 #[cfg(feature = "alloc")]
 pub use reconstruct::*;
 pub use shape::*;
-#[cfg(feature = "alloc")]
-pub use solution::*;
 #[cfg(feature = "alloc")]
 pub use topology::Topology;
 pub use uniform::*;

@@ -5,15 +5,12 @@ use alloc::vec::Vec;
 
 use super::{Element, Exchange, Field, Shape};
 use crate::math::{Real, Vector};
-use crate::solve::{Stop, System, gauss_seidel};
+use crate::solve::{Solution, Stop, System, gauss_seidel};
 use crate::spectrum::Spectrum;
-
-/// Sweeps at most: reflectances up to 0.99 reach any tolerance before.
-const MOST_SWEEPS: usize = 2000;
 
 /// Elements with what they exchange and their radiosities.
 #[derive(Clone, Debug)]
-pub struct Solution<V: Vector, S> {
+pub struct Enclosure<V: Vector, S> {
     /// The pieces of the shapes.
     pub elements: Vec<Element<V>>,
     /// What they exchange.
@@ -26,32 +23,33 @@ pub struct Solution<V: Vector, S> {
     pub pairs: usize,
 }
 
-impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Solution<V, S> {
+impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Enclosure<V, S> {
     /// Computes the form factors of `elements` by any method and solves for their radiosities.
     ///
     /// `form_factor` gets two elements, the smaller one first, and gives the share of the light leaving the first that
-    /// reaches the second. The solution is `tolerance` close, as a share of the largest radiosity.
+    /// reaches the second.
     pub fn new(
         shapes: &[Shape<V, S>],
         elements: Vec<Element<V>>,
-        tolerance: V::Scalar,
+        stop: &Stop<V::Scalar>,
         form_factor: &mut impl FnMut(&Element<V>, &Element<V>) -> V::Scalar,
     ) -> Self {
         let mut exchange = Exchange::default();
         let pairs = exchange.update(&elements, &[], form_factor);
         let radiosity = vec![S::default(); elements.len()];
-        let mut solution = Self { elements, exchange, radiosity, sweeps: 0, pairs };
-        solution.solve(shapes, tolerance);
-        solution
+        let mut enclosure = Self { elements, exchange, radiosity, sweeps: 0, pairs };
+        enclosure.solve(shapes, stop);
+        enclosure
     }
 
-    /// Solves again from the radiosities as they are.
-    pub fn solve(&mut self, shapes: &[Shape<V, S>], tolerance: V::Scalar) {
+    /// Solves by Gauss-Seidel from the radiosities as they are.
+    pub fn solve(&mut self, shapes: &[Shape<V, S>], stop: &Stop<V::Scalar>) -> Solution<V::Scalar> {
         let of = |get: fn(&Shape<V, S>) -> S| self.elements.iter().map(|e| get(&shapes[e.shape])).collect::<Vec<S>>();
         let (exitance, reflectance) = (of(|shape| shape.exitance), of(|shape| shape.reflectance));
         let system = System::new(&exitance, &reflectance, &self.exchange);
-        let stop = Stop { tolerance, most_steps: MOST_SWEEPS };
-        self.sweeps += gauss_seidel(&system, &mut self.radiosity, &stop).steps;
+        let solution = gauss_seidel(&system, &mut self.radiosity, stop);
+        self.sweeps += solution.steps;
+        solution
     }
 
     /// The continuous function through the radiosities.
