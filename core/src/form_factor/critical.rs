@@ -55,8 +55,7 @@ impl<'a, V: Vector> Search<'a, V> {
     /// The plane of a blocker.
     fn edge_on(&mut self, blocker: &Fan<V>) {
         let Some(point) = blocker.corners().next() else { return };
-        let normal = area_vector(blocker.corners()).normalize_or_zero();
-        if let Some([from, to]) = self.line(normal, point) {
+        if let Some((normal, [from, to])) = self.line(area_vector(blocker.corners()), point) {
             self.keep(normal, point, (to - from).length());
         }
     }
@@ -74,8 +73,7 @@ impl<'a, V: Vector> Search<'a, V> {
 
     /// The part of a plane that an edge spans with a corner, on both sides of the corner.
     fn sector(&mut self, corner: V, from: V, to: V) {
-        let normal = from.cross(to).normalize_or_zero();
-        let Some(line) = self.line(normal, corner) else { return };
+        let Some((normal, line)) = self.line(from.cross(to), corner) else { return };
         // Both are positive beyond the edge and negative on the other side of the corner.
         let shares = line.map(|point| {
             let offset = point - corner;
@@ -87,20 +85,21 @@ impl<'a, V: Vector> Search<'a, V> {
         self.keep(normal, corner, length);
     }
 
-    /// Where a plane enters and leaves the triangle.
-    fn line(&self, normal: V, point: V) -> Option<[V; 2]> {
+    /// The normal of a plane, with length 1, and where it enters and leaves the triangle.
+    fn line(&self, normal: V, point: V) -> Option<(V, [V; 2])> {
+        let zero = V::Scalar::ZERO;
         let heights = self.triangle.map(|corner| normal.dot(corner - point));
-        let is_split = heights.iter().any(|&height| height > self.tolerance)
-            && heights.iter().any(|&height| height < -self.tolerance);
-        if !is_split {
+        let is_split = |by: V::Scalar| heights.iter().any(|&h| h > by) && heights.iter().any(|&h| h < -by);
+        // The root is spared where the triangle lies on one side, which is nearly everywhere.
+        if !(is_split(zero) && is_split(self.tolerance * normal.length())) {
             return None;
         }
         let mut ends = (0..3).filter_map(|i| {
             let j = (i + 1) % 3;
-            let is_crossed = (heights[i] > V::Scalar::ZERO) != (heights[j] > V::Scalar::ZERO);
+            let is_crossed = (heights[i] > zero) != (heights[j] > zero);
             is_crossed.then(|| self.triangle[i].lerp(self.triangle[j], heights[i] / (heights[i] - heights[j])))
         });
-        Some([ends.next()?, ends.next()?])
+        Some((normal.normalize_or_zero(), [ends.next()?, ends.next()?]))
     }
 
     fn keep(&mut self, normal: V, point: V, length: V::Scalar) {
@@ -114,8 +113,8 @@ impl<'a, V: Vector> Search<'a, V> {
 /// The share of a line on which two linear functions, given at its ends, both have a sign.
 fn overlap<R: Real>(ends: [[R; 2]; 2], sign: R) -> R {
     let (mut start, mut end) = (R::ZERO, R::ONE);
-    for k in 0..2 {
-        let (from, to) = (ends[0][k] * sign, ends[1][k] * sign);
+    for (from, to) in ends[0].into_iter().zip(ends[1]) {
+        let (from, to) = (from * sign, to * sign);
         if from < R::ZERO && to < R::ZERO {
             return R::ZERO;
         }

@@ -1,5 +1,6 @@
 //! Which share of the light that leaves one place reaches another, by geometry alone.
 
+mod among;
 mod boundary;
 mod contour;
 mod critical;
@@ -25,6 +26,7 @@ mod visible;
 mod visible_discs;
 mod visible_rays;
 
+pub use among::polygon_to_polygon_among;
 pub use contour::*;
 pub use cylinder::*;
 pub use disc::*;

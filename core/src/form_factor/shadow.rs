@@ -5,6 +5,8 @@
 
 use crate::math::{Real, Vector};
 
+use super::polygon::lambert_sum;
+
 /// Corners of the convex pieces that a polygon is cut into.
 const CORNERS: usize = 40;
 /// Corners of the parts in which a larger blocker or receiver is handled.
@@ -63,8 +65,7 @@ pub(super) fn seen<'a, V: Vector>(
     let parts = fans(polygon).filter_map(|part| {
         let corners: Piece<V> = part.corners().map(|corner| corner - point).collect();
         let base = Base::new(&corners)?;
-        let above = cut(&corners, normal, base.tolerance);
-        Some(Eye { point, normal, base }.visible_share(&above, blockers.clone()))
+        Some(Eye { point, normal, base }.visible_share(&corners, blockers.clone()))
     });
     parts.sum::<V::Scalar>().max(V::Scalar::ZERO)
 }
@@ -111,7 +112,8 @@ impl<V: Vector> Pyramid<V> {
         let mut facing = area_vector(corners.clone()).normalize_or_zero();
         let distance = corners.clone().fold(zero, |sum, corner| sum + facing.dot(corner));
         let reach = corners.clone().fold(zero, |sum, corner| sum + corner.length());
-        if distance.abs() <= V::Scalar::from_f64(8.0) * V::Scalar::EPSILON * reach {
+        let is_beside = distance.abs() > V::Scalar::from_f64(8.0) * V::Scalar::EPSILON * reach;
+        if !is_beside {
             return None;
         }
         let above = corners.clone().map(|corner| base.normal.dot(corner) + base.height);
@@ -191,7 +193,8 @@ impl<V: Vector> Eye<V> {
             }
             return self.around(&pyramid, piece, blockers);
         }
-        lambert_sum(piece, self.normal)
+        let Some(&last) = piece.last() else { return V::Scalar::ZERO };
+        -lambert_sum(V::default(), self.normal, last, piece.iter().copied())
     }
 
     /// Lambert's sum over what further blockers leave of what one leaves: a piece for each of its planes.
@@ -212,15 +215,4 @@ impl<V: Vector> Eye<V> {
         }
         sum
     }
-}
-
-/// `1/2pi` times the sum over the edges of the angle they span times the height of the normal of their plane.
-fn lambert_sum<V: Vector>(polygon: &[V], normal: V) -> V::Scalar {
-    let edges = (0..polygon.len()).map(|i| {
-        let (from, to) = (polygon[(i + 1) % polygon.len()], polygon[i]);
-        let cross = from.cross(to);
-        let length = cross.length();
-        if length > V::Scalar::ZERO { length.atan2(from.dot(to)) * cross.dot(normal) / length } else { V::Scalar::ZERO }
-    });
-    edges.sum::<V::Scalar>() / (V::Scalar::PI + V::Scalar::PI)
 }

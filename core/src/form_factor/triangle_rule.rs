@@ -1,7 +1,7 @@
 //! Means of functions over triangles: two rules, so that their difference tells the error.
 //!
 //! The rule of 7 points is exact to degree 5 (Radon 1948), that of 16 points to degree 8 (Dunavant, "High degree
-//! efficient symmetrical Gaussian quadrature rules for the triangle", IJNME 1985; to 18 digits here).
+//! efficient symmetrical Gaussian quadrature rules for the triangle", IJNME 1985; to all digits of `f64` here).
 
 use crate::math::{Real, Vector};
 
@@ -9,7 +9,7 @@ use crate::math::{Real, Vector};
 type Orbit = (f64, f64, f64);
 
 /// The square root of 15.
-const ROOT_15: f64 = 3.872_983_346_207_416_885;
+const ROOT_15: f64 = 3.872_983_346_207_417;
 
 const COARSE: [Orbit; 3] = [
     (0.225, 1.0 / 3.0, 1.0 / 3.0),
@@ -18,26 +18,49 @@ const COARSE: [Orbit; 3] = [
 ];
 
 const FINE: [Orbit; 5] = [
-    (0.144_315_607_677_787_168, 1.0 / 3.0, 1.0 / 3.0),
-    (0.095_091_634_267_284_624_8, 0.081_414_823_414_553_687_9, 0.459_292_588_292_723_156),
-    (0.103_217_370_534_718_25, 0.658_861_384_496_479_587, 0.170_569_307_751_760_206),
-    (0.032_458_497_623_198_080_3, 0.898_905_543_365_938_049, 0.050_547_228_317_030_975_5),
-    (0.027_230_314_174_434_994_3, 0.008_394_777_409_957_605_34, 0.263_112_829_634_638_113),
+    (0.144_315_607_677_787_17, 1.0 / 3.0, 1.0 / 3.0),
+    (0.095_091_634_267_284_62, 0.081_414_823_414_553_7, 0.459_292_588_292_723_2),
+    (0.103_217_370_534_718_24, 0.658_861_384_496_479_6, 0.170_569_307_751_760_2),
+    (0.032_458_497_623_198_08, 0.898_905_543_365_938_1, 0.050_547_228_317_030_98),
+    (0.027_230_314_174_434_993, 0.008_394_777_409_957_605, 0.263_112_829_634_638_1),
 ];
 
-/// The mean of `f` over a triangle by 7 points and by 16 points.
-pub(super) fn means<V: Vector>(triangle: &[V; 3], f: impl Fn(V) -> V::Scalar) -> (V::Scalar, V::Scalar) {
-    let mean = |rule: &[Orbit]| rule.iter().map(|orbit| orbit_sum(triangle, orbit, &f)).sum();
-    (mean(&COARSE), mean(&FINE))
+/// What the points of both rules tell of a function over a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Means<R> {
+    /// The mean by 7 points.
+    pub(super) coarse: R,
+    /// The mean by 16 points.
+    pub(super) fine: R,
+    /// The largest value less the smallest one.
+    pub(super) range: R,
+}
+
+/// The means of `f` over a triangle.
+pub(super) fn means<V: Vector>(triangle: &[V; 3], f: impl Fn(V) -> V::Scalar) -> Means<V::Scalar> {
+    let (mut low, mut high) = (V::Scalar::INFINITY, -V::Scalar::INFINITY);
+    let mut tracked = |point| {
+        let value = f(point);
+        (low, high) = (low.min(value), high.max(value));
+        value
+    };
+    let mut mean = |rule: &[Orbit]| rule.iter().map(|orbit| orbit_sum(triangle, orbit, &mut tracked)).sum();
+    let (coarse, fine) = (mean(&COARSE), mean(&FINE));
+    Means { coarse, fine, range: high - low }
+}
+
+/// The mean of `f` over a triangle by 16 points.
+pub(super) fn mean<V: Vector>(triangle: &[V; 3], f: &mut impl FnMut(V) -> V::Scalar) -> V::Scalar {
+    FINE.iter().map(|orbit| orbit_sum(triangle, orbit, f)).sum()
 }
 
 /// Weighted sum over the points that arise when the barycentric coordinates change places.
-fn orbit_sum<V: Vector>(triangle: &[V; 3], &(weight, a, b): &Orbit, f: impl Fn(V) -> V::Scalar) -> V::Scalar {
+fn orbit_sum<V: Vector>(triangle: &[V; 3], &(weight, a, b): &Orbit, f: &mut impl FnMut(V) -> V::Scalar) -> V::Scalar {
     let c = 1.0 - a - b;
     let is_symmetric = (b - c).abs() < 1e-12;
     let [u, v, w] = *triangle;
     let [a_, b_, c_] = [a, b, c].map(V::Scalar::from_f64);
-    let at = |u: V, v: V, w: V| f(u * a_ + v * b_ + w * c_);
+    let mut at = |u: V, v: V, w: V| f(u * a_ + v * b_ + w * c_);
     let sum = if is_symmetric && (a - b).abs() < 1e-12 {
         at(u, v, w)
     } else if is_symmetric {
@@ -60,7 +83,7 @@ mod tests {
         let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
         for (i, j) in (0..=8).flat_map(|i| (0..=8 - i).map(move |j| (i, j))) {
             let exact = 2.0 * factorial(i) * factorial(j) / factorial(i + j + 2);
-            let (coarse, fine) = means(&[DVec3::ZERO, DVec3::X, DVec3::Y], |p| p.x.powi(i) * p.y.powi(j));
+            let Means { coarse, fine, .. } = means(&[DVec3::ZERO, DVec3::X, DVec3::Y], |p| p.x.powi(i) * p.y.powi(j));
             assert!((fine - exact).abs() < 1e-16, "{i} {j}");
             assert_eq!((coarse - exact).abs() < 1e-16, i + j <= 5, "{i} {j}");
         }

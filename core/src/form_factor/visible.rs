@@ -3,11 +3,11 @@
 
 use crate::math::{Real, Vector};
 
-use super::Estimate;
 use super::critical::{Critical, longest};
 use super::shadow::{Fan, area_vector, cut, fans, seen};
 use super::shaft::Shaft;
-use super::triangle_rule::means;
+use super::triangle_rule::{Means, means};
+use super::{Estimate, polygon_to_polygon};
 
 /// Triangles that wait; each split adds two at most.
 const WAITING: usize = 64;
@@ -16,7 +16,12 @@ const MOST_CELLS: usize = 1 << 16;
 /// Blockers of one triangle; where more are in the way, all are asked.
 const NEAR_BLOCKERS: usize = 32;
 /// A triangle may err by this share of the accuracy, however small it is.
-const LEAST_SHARE: f64 = 1.0 / 1024.0;
+const LEAST_SHARE: f64 = 1.0 / 256.0;
+/// A triangle in which the view changes is split in any case while it sends more than this many times the accuracy, so
+/// that no shadow is missed between the points of the rules.
+const HEAVY: f64 = 64.0;
+/// What a kink in a triangle may change of the mean of 16 points, as a share of the range of the integrand.
+const KINK: f64 = 0.004;
 
 /// Share of the power leaving `a` that lands on `b` past convex planar `blockers`, with an estimate of its error.
 ///
@@ -125,32 +130,28 @@ impl<'a, V: Vector> Integral<'a, V> {
 
     /// Splits a triangle along a critical line or where the rules differ; otherwise the rules hold.
     fn step(&self, cell: &[V; 3], blockers: impl Iterator<Item = Fan<'a, V>> + Clone, may_split: bool) -> Step<V> {
-        let critical = longest(cell, fans(self.b), blockers.clone());
-        if let (Some(critical), true) = (critical, may_split) {
-            return Step::Split(split(cell, &critical));
-        }
         let share = area_vector(cell.iter().copied()).length() / self.area;
-        let (coarse, fine) = means(cell, |point| seen(point, self.normal, self.b, blockers.clone()));
-        let error = share * error_of(coarse, fine, blockers.clone().nth(1).is_none());
-        let least = V::Scalar::from_f64(LEAST_SHARE);
-        if error > self.accuracy * share.max(least) && may_split {
-            return Step::Split(bisect(cell));
+        if blockers.clone().next().is_none() {
+            let value = share * polygon_to_polygon(cell, self.b);
+            return Step::Add(Estimate { value, error: share * contour_error() });
         }
-        if critical.is_none() {
-            return Step::Add(Estimate { value: share * fine, error });
+        let critical = longest(cell, fans(self.b), blockers.clone());
+        let center = cell[0].lerp(cell[1].lerp(cell[2], V::Scalar::from_f64(0.5)), V::Scalar::from_f64(2.0 / 3.0));
+        let weight = share * seen(center, self.normal, self.b, core::iter::empty());
+        let apart = |critical: Option<Critical<V>>| critical.map_or_else(|| bisect(cell), |at| split(cell, &at));
+        if critical.is_some() && weight > self.accuracy * V::Scalar::from_f64(HEAVY) && may_split {
+            return Step::Split(apart(critical));
         }
-        // A shadow may have been missed, or what stands between the points in it.
-        let (_, unoccluded) = means(cell, |point| seen(point, self.normal, self.b, core::iter::empty()));
-        Step::Add(Estimate { value: share * fine, error: error + share * unoccluded })
+        let found = means(cell, |point| seen(point, self.normal, self.b, blockers.clone()));
+        let error = share * error_of(&found, critical.is_some(), blockers.clone().nth(1).is_some());
+        let is_settled = error <= self.accuracy * share.max(V::Scalar::from_f64(LEAST_SHARE));
+        if is_settled || !may_split {
+            // Where work ended too soon a shadow may have been missed.
+            let missed = if is_settled { V::Scalar::ZERO } else { weight };
+            return Step::Add(Estimate { value: share * found.fine, error: error + missed });
+        }
+        Step::Split(apart(critical))
     }
-}
-
-/// The error of the finer rule. Where the integrand has no kinks it is far below the difference of the rules, in which
-/// the coarser one dominates: `|difference|^1.5` with the constant of QUADPACK (Piessens et al. 1983).
-fn error_of<R: Real>(coarse: R, fine: R, is_analytic: bool) -> R {
-    let difference = (fine - coarse).abs();
-    let relative = R::from_f64(1000.0) * difference / fine.abs();
-    if is_analytic && relative < R::ONE { difference * relative.sqrt() } else { difference }
 }
 
 /// The blockers in a shaft, unless there are too many.
@@ -164,6 +165,28 @@ fn near<'a, V: Vector>(
         }
         Ok(near)
     })
+}
+
+/// That of [`polygon_to_polygon`].
+pub(super) fn contour_error<R: Real>() -> R {
+    R::EPSILON.max(R::from_f64(1e-12))
+}
+
+/// The error of the finer rule. Where the integrand has no kinks it is far below the difference of the rules, in which
+/// the coarser one dominates: `|difference|^1.5` as in QUADPACK (Piessens et al. 1983), with a more careful constant.
+/// Where it has kinks the difference is a matter of luck, and a share of the range is safer. Several blockers may meet
+/// on curves that are not known, but seldom.
+fn error_of<R: Real>(found: &Means<R>, is_critical: bool, are_several: bool) -> R {
+    let difference = (found.fine - found.coarse).abs();
+    let relative = R::from_f64(1000.0) * difference / found.fine.abs();
+    if is_critical {
+        return difference.max(found.range * R::from_f64(KINK));
+    }
+    match are_several {
+        false if relative < R::ONE => difference * relative.sqrt(),
+        false => difference,
+        true => R::from_f64(3.0) * difference,
+    }
 }
 
 /// The triangles on both sides of a plane.

@@ -8,6 +8,7 @@ mod sobol;
 mod triangle;
 
 mod occluders;
+mod polygon_occluders;
 
 #[cfg(all(feature = "alloc", not(feature = "bvh")))]
 mod no_bvh;
@@ -23,6 +24,7 @@ pub use mesh::*;
 #[cfg(all(feature = "alloc", not(feature = "bvh")))]
 pub use no_bvh::tree;
 pub use occluders::{BruteForce, Occluders};
+pub use polygon_occluders::PolygonOccluders;
 pub use ray::*;
 pub use sobol::*;
 pub use triangle::*;

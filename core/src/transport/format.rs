@@ -232,6 +232,7 @@ impl Stored for Origin {
         let (kind, index) = match *self {
             Self::Lamp(index) => (0_u8, index),
             Self::Material(index) => (1, index),
+            Self::Sky => (2, 0),
         };
         kind.put(bytes);
         index.put(bytes);
@@ -241,6 +242,7 @@ impl Stored for Origin {
         match (u8::take(bytes)?, u32::take(bytes)?) {
             (0, index) => Some(Self::Lamp(index)),
             (1, index) => Some(Self::Material(index)),
+            (2, 0) => Some(Self::Sky),
             _ => None,
         }
     }

@@ -85,6 +85,7 @@ impl LampLight {
         let exists = match self.origin {
             Origin::Lamp(lamp) => (lamp as usize) < lighting.lamps.len(),
             Origin::Material(material) => (material as usize) < lighting.materials.len(),
+            Origin::Sky => true,
         };
         let starts_at_zero = self.runs.first().map_or(self.light.is_empty(), |run| run.first == 0);
         let in_order = self.runs.is_sorted_by_key(|run| run.start) && self.runs.is_sorted_by_key(|run| run.first);

@@ -83,7 +83,7 @@ impl Solution {
     /// only as far as their noise allows; what they miss shows here.
     pub fn energy_balance(&self, surfaces: &Surfaces, rows: &Rows) -> f32 {
         let (mut emitted, mut absorbed) = (0.0_f64, 0.0_f64);
-        let sky = self.radiance[surfaces.sky() as usize];
+        let Some(&sky) = self.radiance.get(surfaces.sky() as usize) else { return 0.0 };
         for (i, &area) in surfaces.areas.iter().enumerate() {
             let (to_sky, to_black) = (rows.share(i, surfaces.sky()), rows.share(i, surfaces.black()));
             let from_outside = self.direct[i] + self.emission[i] + sky * to_sky;
