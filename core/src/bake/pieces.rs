@@ -193,8 +193,7 @@ impl<O: Occluders> Pieces<'_, O> {
             }
             let shadow = light.shadow_ray(sequence.square(k), point, normal);
             if shadow.weight > 0.0 {
-                let end = if shadow.end == 1.0 { 1.0 - 1e-4 } else { shadow.end };
-                let ray = self.tracer.leave(triangle, point, normal, shadow.direction, end);
+                let ray = self.tracer.leave_for(triangle, point, normal, &shadow);
                 sum += irradiance * self.tracer.visibility(&ray);
                 self.tracer.count(1);
             }
