@@ -5,7 +5,9 @@ use core::fmt;
 
 use glam::Vec3;
 
-use super::{Cells, Codes, Fills, LampLight, Lighting, MaterialColors, Origin, Rows, Run, StoredImage, Surfaces, Transport};
+use super::{
+    Cells, Codes, Fills, LampLight, Lighting, MaterialColors, Origin, Rows, Run, StoredImage, Surfaces, Transport,
+};
 
 /// The first bytes of a file.
 const MAGIC: [u8; 8] = *b"RADIOSTP";
@@ -40,7 +42,9 @@ pub enum TransportError {
 impl fmt::Display for TransportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotATransport => write!(f, "this is no stored transport; bake the scene again and keep its transport"),
+            Self::NotATransport => {
+                write!(f, "this is no stored transport; bake the scene again and keep its transport")
+            }
             Self::Version { found } => write!(
                 f,
                 "the transport has version {found} and version {VERSION} is read here; bake the scene again with this program"
@@ -60,7 +64,8 @@ impl Transport {
     pub fn write(&self) -> Vec<u8> {
         let mut bytes = alloc::vec![0; HEADER];
         self.put(&mut bytes);
-        let header = [MAGIC, word(u64::from(VERSION)), word((bytes.len() - HEADER) as u64), word(checksum(&bytes[HEADER..]))];
+        let header =
+            [MAGIC, word(u64::from(VERSION)), word((bytes.len() - HEADER) as u64), word(checksum(&bytes[HEADER..]))];
         bytes[..HEADER].copy_from_slice(header.as_flattened());
         bytes
     }
