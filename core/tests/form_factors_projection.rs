@@ -1,117 +1,266 @@
-//! The hemicube, Nusselt's projection and its rays against known form factors, each within the error that it tells.
+//! The hemicube, Nusselt's projection and its rays on all known form factors that they apply to, each within the error
+//! that it tells.
 
-use std::ops::Range;
+use std::f64::consts::TAU;
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DQuat, DVec3, Vec2, Vec3};
 use radiosity::form_factor::*;
-use radiosity::geometry::BruteForce;
+use radiosity::geometry::{BruteForce, Hit, Occluders, Ray};
+
+use points::{POINT_CASES, PointCase, Target};
+use surfaces::{SURFACE_CASES, Surfaces};
 
 #[path = "../../examples/nusselt.rs"]
 #[expect(dead_code, reason = "the test looks at the picture only")]
 mod nusselt;
 #[path = "reference/occluded.rs"]
-#[expect(dead_code, reason = "these methods are for polygons")]
+#[expect(dead_code, reason = "its points and discs are among the points")]
 mod occluded;
+#[path = "reference/points.rs"]
+mod points;
+#[path = "reference/surfaces.rs"]
+mod surfaces;
 
 const N: usize = 256;
+/// Half the length of strips without end: what lies beyond counts with the cube of height over distance.
+const FAR: f64 = 300.0;
+/// Half the side of the ground: what lies beyond counts with height over distance.
+const HORIZON: f64 = 1e4;
+const UNIT: [f64; 2] = [0.0, 1.0];
 
-/// Seen from the origin, which looks along `normal`.
-struct PointCase {
-    name: &'static str,
-    normal: DVec3,
-    polygon: Vec<DVec3>,
-    blocker: Vec<DVec3>,
-    factor: f64,
+type Polygon = Vec<DVec3>;
+
+/// A rectangle in a plane at height `z`: counter-clockwise seen from above, or from below.
+fn up([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], z: f64) -> Polygon {
+    [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(|[x, y]| DVec3::new(x, y, z)).to_vec()
 }
 
-/// One polygon to another.
-struct PairCase {
-    name: String,
-    from: Vec<DVec3>,
-    to: Vec<DVec3>,
-    blockers: Vec<Vec<DVec3>>,
-    factor: f64,
+fn down(x: [f64; 2], y: [f64; 2], z: f64) -> Polygon {
+    up(x, y, z).into_iter().rev().collect()
 }
 
-/// A disc as a polygon of the same area, which looks down.
-fn disc(center: [f64; 3], radius: f64) -> Vec<DVec3> {
-    let step = std::f64::consts::TAU / 360.0;
+/// A disc as a polygon of 720 corners and the same area, counter-clockwise seen along `axis`.
+fn disc(center: DVec3, radius: f64, axis: DVec3) -> Polygon {
+    let step = TAU / 720.0;
     let rim = radius * (step / step.sin()).sqrt();
-    let corner =
-        |k: i32| DVec3::from(center) + DVec3::new((f64::from(k) * step).cos(), -(f64::from(k) * step).sin(), 0.0) * rim;
-    (0..360).map(corner).collect()
+    let turn = DQuat::from_rotation_arc(DVec3::Z, axis);
+    let corner = |k: i32| center + turn * DVec3::from((glam::DVec2::from_angle(f64::from(-k) * step), 0.0)) * rim;
+    (0..720).map(corner).collect()
 }
 
-/// A rectangle that looks down.
-fn down(x: Range<f64>, y: Range<f64>, z: f64) -> Vec<DVec3> {
-    [[x.start, y.start], [x.start, y.end], [x.end, y.end], [x.end, y.start]].map(|[x, y]| DVec3::new(x, y, z)).to_vec()
+/// A rectangle at some `x`, counter-clockwise seen from larger ones.
+fn wall(x: f64, y: [f64; 2], z: [f64; 2]) -> Polygon {
+    up(y, z, 0.0).iter().map(|p| DVec3::new(x, p.x, p.y)).collect()
 }
 
-/// A rectangle at a distance along x that looks back.
-fn wall(x: f64, y: Range<f64>, z: Range<f64>) -> Vec<DVec3> {
-    [[y.start, z.start], [y.start, z.end], [y.end, z.end], [y.end, z.start]].map(|[y, z]| DVec3::new(x, y, z)).to_vec()
+/// The same polygon with its front to the origin.
+fn facing_origin([a, b, c]: [DVec3; 3]) -> Polygon {
+    if (b - a).cross(c - a).dot(a) < 0.0 { vec![a, b, c] } else { vec![a, c, b] }
 }
 
-/// Howell's catalogue, B-3, B-4, B-12 to B-14, and Lambert's sum.
-fn point_cases() -> Vec<PointCase> {
-    let case = |name, normal, polygon, factor| PointCase { name, normal, polygon, blocker: Vec::new(), factor };
-    let up = DVec3::Z;
-    let triangle = [[0.3, -0.2, 1.0], [0.5, 1.1, 1.6], [1.4, 0.1, 0.7]].map(DVec3::from).to_vec();
-    vec![
-        case("square, corner above", up, down(0.0..1.0, 0.0..1.0, 1.0), 0.138_531_605_994_9),
-        case("rectangle, corner above", up, down(0.0..2.0, 0.0..1.0, 0.5), 0.220_777_622_334_8),
-        case("wall on the horizon", up, wall(1.0, 0.0..1.0, 0.0..1.0), 0.055_734_197_002_55),
-        case("high wall on the horizon", up, wall(0.5, 0.0..1.0, 0.0..2.0), 0.158_774_804_514_3),
-        case("wall through the horizon", up, wall(1.0, -1.0..1.0, -0.5..1.5), 0.160_578_813_342_4),
-        case("triangle", DVec3::new(0.2, 0.1, 1.0).normalize(), triangle, 0.095_350_005_369_94),
-        case("disc above", up, disc([0.0, 0.0, 2.0], 0.5), 1.0 / 17.0),
-        case("wide disc above", up, disc([0.0, 0.0, 1.0], 3.0), 0.9),
-        case("disc beside the axis", up, disc([0.5, 0.0, 1.0], 1.0), 0.437_982_632_705_4),
-        case("disc far beside the axis", up, disc([2.0, 0.0, 1.0], 1.0), 0.052_786_404_500_04),
-        case("disc across", DVec3::X, disc([1.0, 0.0, 2.0], 0.5), 0.018_649_625_152_6),
-        PointCase {
-            name: "square behind a square",
-            normal: up,
-            polygon: down(-0.5..0.5, -0.5..0.5, 1.0),
-            blocker: down(-0.125..0.125, -0.125..0.125, 0.5),
-            factor: 0.165_978_835_648_3,
-        },
-        PointCase {
-            name: "disc behind a disc",
-            normal: up,
-            polygon: disc([0.0, 0.0, 2.0], 1.0),
-            blocker: disc([0.0, 0.0, 1.0], 0.3),
-            factor: 0.117_431_192_660_6,
-        },
-    ]
+/// What a point sees, as polygons: the target, and what stands before it. Of the sky it is the ground.
+fn target_polygons(target: &Target) -> [Polygon; 2] {
+    let alone = |polygon| [polygon, Vec::new()];
+    match *target {
+        Target::Polygon(corners) => alone(corners.iter().map(|&corner| DVec3::from(corner)).collect()),
+        Target::ParallelRectangle { width, height, distance } => alone(down([0.0, width], [0.0, height], distance)),
+        Target::PerpendicularRectangle { width, height, distance } => {
+            alone(wall(distance, [0.0, width], [0.0, height]).into_iter().rev().collect())
+        }
+        Target::Disc { center, radius } => alone(disc(center.into(), radius, DVec3::Z)),
+        // A point sees of a sphere the disc inside the cone around it.
+        Target::Sphere { distance, degrees } => {
+            let axis = DQuat::from_rotation_y(degrees.to_radians()) * DVec3::Z;
+            let sine = 1.0 / distance;
+            alone(disc(axis * (distance - sine), (1.0 - sine * sine).sqrt(), axis))
+        }
+        Target::Sky { degrees } => {
+            let turn = DQuat::from_rotation_y(degrees.to_radians());
+            alone(up([-HORIZON, HORIZON], [-HORIZON, HORIZON], -1.0).into_iter().map(|p| turn * p).collect())
+        }
+        Target::Strip { from, to } => alone(down([from, to], [-FAR, FAR], 2.0)),
+        Target::SquareLessShadow => [down([-0.5, 0.5], [-0.5, 0.5], 1.0), down([-0.125, 0.125], [-0.125, 0.125], 0.5)],
+        Target::DiscLessShadow => [disc(DVec3::Z * 2.0, 1.0, DVec3::Z), disc(DVec3::Z, 0.3, DVec3::Z)],
+    }
 }
 
-/// Two unit squares in different positions; what they exchange unoccluded is found by the contour integral.
-fn pair_cases() -> Vec<PairCase> {
-    let floor: Vec<DVec3> =
-        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
-    let tilted = |degrees: f64| {
-        let (sin, cos) = degrees.to_radians().sin_cos();
-        let far = DVec3::new(cos, 0.0, sin);
-        vec![DVec3::ZERO, DVec3::Y, DVec3::Y + far, far]
+/// What a method should find: the sky is what the ground leaves.
+fn expected(PointCase { target, factor, .. }: &PointCase) -> f64 {
+    if matches!(target, Target::Sky { .. }) { 1.0 - factor } else { *factor }
+}
+
+/// A sender and all that it sends to, where they are polygons.
+fn surface_polygons(surfaces: &Surfaces) -> Option<[Vec<Polygon>; 2]> {
+    let pair = |from, to| Some([vec![from], vec![to]]);
+    // Of two strips that share an edge: a short piece of one sends as much to the other as all of it.
+    let wedge = |from: f64, to: f64, angle: f64| {
+        let far = DVec3::new(angle.cos(), 0.0, angle.sin()) * to;
+        let ends = DVec3::Y * FAR;
+        pair(up([0.0, from], [-1e-3, 1e-3], 0.0), vec![-ends, ends, ends + far, far - ends])
     };
-    let mut others: Vec<_> =
-        [0.1, 0.5, 1.0, 2.0, 10.0].map(|d| (format!("parallel at {d}"), down(0.0..1.0, 0.0..1.0, d))).to_vec();
-    others.extend([30.0, 60.0, 90.0, 150.0].map(|angle| (format!("edge in common, {angle} degrees"), tilted(angle))));
-    others.push(("offset".to_owned(), down(0.7..1.9, -0.4..0.3, 0.6)));
-    let unoccluded = others.into_iter().map(|(name, to)| {
-        let factor = polygon_to_polygon(&floor, &to);
-        PairCase { name, from: floor.clone(), to, blockers: Vec::new(), factor }
-    });
-    let corners = |polygon: &[occluded::Point]| polygon.iter().map(|&corner| DVec3::from(corner)).collect::<Vec<_>>();
-    let occluded = occluded::PAIRS.iter().filter(|pair| !pair.blockers.is_empty()).map(|pair| PairCase {
-        name: pair.name.to_owned(),
-        from: corners(pair.a),
-        to: corners(pair.b),
-        blockers: pair.blockers.iter().map(|blocker| corners(blocker)).collect(),
-        factor: pair.factor,
-    });
-    unoccluded.chain(occluded).collect()
+    match *surfaces {
+        Surfaces::ParallelRectangles { width, height, distance } => {
+            let [x, y] = [width, height].map(|side| [0.0, side]);
+            pair(up(x, y, 0.0), down(x, y, distance))
+        }
+        Surfaces::ParallelOffset { a, b, distance } => pair(up(a[0], a[1], 0.0), down(b[0], b[1], distance)),
+        Surfaces::PerpendicularRectangles { length, width, height } => {
+            pair(up([0.0, width], [0.0, length], 0.0), wall(0.0, [0.0, length], [0.0, height]))
+        }
+        Surfaces::PerpendicularOffset { a, b } => pair(up(a[0], a[1], 0.0), wall(0.0, b[1], b[0])),
+        Surfaces::TiltedSquares { degrees } => {
+            let far = DVec3::new(degrees.to_radians().cos(), 0.0, degrees.to_radians().sin());
+            pair(up(UNIT, UNIT, 0.0), vec![DVec3::ZERO, DVec3::Y, DVec3::Y + far, far])
+        }
+        Surfaces::CoaxialDiscs { from, to, distance } => {
+            pair(disc(DVec3::ZERO, from, DVec3::NEG_Z), disc(DVec3::Z * distance, to, DVec3::Z))
+        }
+        Surfaces::ParallelStrips { width, distance } => {
+            pair(up([0.0, width], [-1e-3, 1e-3], 0.0), down([0.0, width], [-FAR, FAR], distance))
+        }
+        Surfaces::StripsAtAnAngle { degrees } => wedge(1.0, 1.0, degrees.to_radians()),
+        Surfaces::TriangularDuct { from, to, third } => {
+            wedge(from, to, ((from * from + to * to - third * third) / (2.0 * from * to)).acos())
+        }
+        Surfaces::BoxRow { width, height, depth } => {
+            let floor = up([0.0, width], [0.0, height], 0.0);
+            let wall = |k: usize| {
+                let (a, b) = (floor[k], floor[(k + 1) % 4]);
+                vec![b, a, a + DVec3::Z * depth, b + DVec3::Z * depth]
+            };
+            let walls = (0..4).map(wall).chain([down([0.0, width], [0.0, height], depth)]).collect();
+            Some([vec![floor.clone()], walls])
+        }
+        Surfaces::Tetrahedron => {
+            let [a, b, c, d] =
+                [[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0]].map(DVec3::from);
+            pair(facing_origin([a, b, c]), facing_origin([a, b, d]))
+        }
+        _ => None,
+    }
+}
+
+/// What rays meet that is not flat, or a disc; all around the z axis.
+enum Shape {
+    Flat(Vec<[Vec3; 3]>),
+    Disc {
+        height: f32,
+        radius: f32,
+    },
+    Sphere {
+        center: Vec3,
+        radius: f32,
+    },
+    /// The part of a sphere around the origin that lies above.
+    Dome {
+        radius: f32,
+    },
+    Cylinder {
+        radius: f32,
+        height: f32,
+    },
+}
+
+impl Shape {
+    fn hits(&self, ray: &Ray) -> Vec<f32> {
+        let (o, d) = (ray.origin, ray.direction);
+        let at = |distance: f32| o + d * distance;
+        let flat = Vec3::new(1.0, 1.0, 0.0);
+        let hits = match self {
+            Self::Flat(triangles) => BruteForce(triangles).nearest(ray).map(|hit| hit.distance).into_iter().collect(),
+            Self::Disc { height, radius } => {
+                let distance = (height - o.z) / d.z;
+                [distance].into_iter().filter(|&t| (at(t) * flat).length() < *radius).collect()
+            }
+            Self::Sphere { center, radius } => roots(d, o - *center, *radius),
+            Self::Dome { radius } => roots(d, o, *radius).into_iter().filter(|&t| at(t).z > 0.0).collect(),
+            Self::Cylinder { radius, height } => {
+                roots(d * flat, o * flat, *radius).into_iter().filter(|&t| (0.0..*height).contains(&at(t).z)).collect()
+            }
+        };
+        hits.into_iter().filter(|&t| t > 0.0 && t < ray.end).collect()
+    }
+}
+
+/// Where `o + t d` has this length.
+fn roots(d: Vec3, o: Vec3, radius: f32) -> Vec<f32> {
+    let (a, b, c) = (d.dot(d), o.dot(d), o.dot(o) - radius * radius);
+    let root = (b * b - a * c).sqrt();
+    if root.is_nan() { Vec::new() } else { vec![(-b - root) / a, (-b + root) / a] }
+}
+
+impl Occluders for Shape {
+    fn first(&self, ray: &Ray, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit> {
+        let hit = |distance| Hit { triangle: 0, distance, barycentric: Vec2::ZERO, front: true };
+        let places = self.hits(ray).into_iter().map(hit).filter_map(|hit| Some((place(&hit)?, hit)));
+        places.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, hit)| hit)
+    }
+
+    fn any(&self, ray: &Ray, mut stop: impl FnMut(&Hit) -> bool) -> bool {
+        self.first(ray, |hit| Some(hit.distance)).is_some_and(|hit| stop(&hit))
+    }
+}
+
+type Sender = Box<dyn Fn(Vec2) -> [Vec3; 2]>;
+
+/// A sender and what it sends to, where one of them is round. Insides are lifted a little.
+fn round(surfaces: &Surfaces) -> Option<(Sender, Shape)> {
+    let sphere = |radius: f64, side: f32| -> Sender {
+        Box::new(move |square| {
+            let z = 1.0 - 2.0 * square.y;
+            let normal = (Vec2::from_angle(TAU as f32 * square.x) * (1.0 - z * z).max(0.0).sqrt()).extend(z);
+            [normal * (radius as f32 + 1e-5 * side), normal * side]
+        })
+    };
+    let cylinder = |radius: f64, height: f64, side: f32| -> Sender {
+        Box::new(move |square| {
+            let normal = Vec2::from_angle(TAU as f32 * square.x).extend(0.0);
+            [normal * (radius as f32 + 1e-5 * side) + Vec3::Z * square.y * height as f32, normal * side]
+        })
+    };
+    let ball = |distance: f64, radius: f64| Shape::Sphere { center: Vec3::Z * distance as f32, radius: radius as f32 };
+    let tube = |radius: f64, height: f64| Shape::Cylinder { radius: radius as f32, height: height as f32 };
+    Some(match *surfaces {
+        Surfaces::SphereToDisc { radius, distance } => {
+            (sphere(1.0, 1.0), Shape::Disc { height: distance as f32, radius: radius as f32 })
+        }
+        Surfaces::SphereToRectangle { width, height, distance } => {
+            (sphere(1.0, 1.0), Shape::Flat(fan(&down([0.0, width], [0.0, height], distance)).collect()))
+        }
+        Surfaces::SphereToCubeFace => {
+            (sphere(0.3, 1.0), Shape::Flat(fan(&down([-0.5, 0.5], [-0.5, 0.5], 0.5)).collect()))
+        }
+        Surfaces::CubeFaceToSphere { radius } => {
+            let face: Sender = Box::new(|square| [(square - 0.5).extend(-0.5), Vec3::Z]);
+            (face, ball(0.0, radius))
+        }
+        Surfaces::OuterSphereToInner { inner, outer } => (sphere(outer, -1.0), ball(0.0, inner)),
+        Surfaces::TwoSpheres { from, to, distance } => (sphere(from, 1.0), ball(distance, to)),
+        Surfaces::CoaxialCylinders { inner, outer, height } => (cylinder(inner, height, 1.0), tube(outer, height)),
+        Surfaces::CylinderSideToItself { radius, height } => (cylinder(radius, height, -1.0), tube(radius, height)),
+        Surfaces::CylinderBaseToSide { radius, height } => {
+            let base: Sender =
+                Box::new(move |square| [radiosity::geometry::disc(square).extend(0.0) * (radius as f32), Vec3::Z]);
+            (base, tube(radius, height))
+        }
+        Surfaces::Hemisphere => {
+            let dome: Sender = Box::new(|square| {
+                let normal =
+                    (Vec2::from_angle(TAU as f32 * square.x) * (1.0 - square.y * square.y).sqrt()).extend(square.y);
+                [normal * (1.0 - 1e-5), -normal]
+            });
+            (dome, Shape::Dome { radius: 1.0 })
+        }
+        _ => return None,
+    })
+}
+
+fn fan(polygon: &[DVec3]) -> impl Iterator<Item = [Vec3; 3]> + '_ {
+    (2..polygon.len()).map(|k| [polygon[0], polygon[k - 1], polygon[k]].map(|corner| corner.as_vec3()))
+}
+
+fn single(polygon: &[DVec3]) -> Vec<Vec3> {
+    polygon.iter().map(|corner| corner.as_vec3()).collect()
 }
 
 struct Buffers {
@@ -139,27 +288,28 @@ fn assert_within(name: &str, found: Estimate<f64>, factor: f64, [relative, absol
     assert!(found.error <= (relative * factor).max(absolute), "{name}: {found:?} tells little");
 }
 
-fn fan(polygon: &[DVec3]) -> impl Iterator<Item = [Vec3; 3]> + '_ {
-    (2..polygon.len()).map(|k| [polygon[0], polygon[k - 1], polygon[k]].map(|corner| corner.as_vec3()))
-}
-
+/// Polygons are exact; those that stand for discs are good to 1e-8, strips to the square of their width over length.
 #[test]
 fn nusselts_area_of_points() {
-    for PointCase { name, normal, polygon, blocker, factor } in point_cases() {
-        let area = nusselt_area(DVec3::ZERO, normal, &polygon);
-        assert!(
-            (area - point_to_polygon(DVec3::ZERO, normal, &polygon)).abs() < 1e-14,
-            "{name}: Lambert's sum differs"
-        );
-        let single: Vec<Vec3> = polygon.iter().map(|corner| corner.as_vec3()).collect();
-        let single = nusselt_area(Vec3::ZERO, normal.as_vec3(), &single);
-        assert!((f64::from(single) - area).abs() < 1e-6, "{name}: {single} in single precision");
-        // The polygons that stand for discs are good to 1e-8; past one blocker only centered cases are differences.
-        let scale = if name.starts_with("square b") { 2.0 } else { 1.0 };
-        let shadow: Vec<DVec3> = blocker.iter().map(|&corner| corner * DVec3::new(scale, scale, scale)).collect();
-        let visible = area - nusselt_area(DVec3::ZERO, normal, &shadow);
-        let tolerance = if name.contains("disc") { 1e-7 } else { 1e-12 };
-        assert!((visible - factor).abs() < tolerance, "{name}: {visible}");
+    for case in POINT_CASES {
+        let (name, normal, [polygon, blocker]) = (case.name, case.normal.into(), target_polygons(&case.target));
+        let area = |polygon: &[DVec3]| {
+            let area = nusselt_area(DVec3::ZERO, normal, polygon);
+            assert!((area - point_to_polygon(DVec3::ZERO, normal, polygon)).abs() < 1e-14, "{name}: not Lambert's sum");
+            let single = nusselt_area(Vec3::ZERO, normal.as_vec3(), &single(polygon));
+            assert!((f64::from(single) - area).abs() < 1e-5, "{name}: {single} in single precision");
+            area
+        };
+        // What stands wholly before the target hides as much of the disc as it covers.
+        let visible = area(&polygon) - area(&blocker);
+        let tolerance = match case.target {
+            Target::Disc { .. } | Target::Sphere { .. } | Target::DiscLessShadow => 2e-8,
+            Target::Strip { .. } => 1e-7,
+            Target::Sky { .. } => 1e-4,
+            _ => 1e-12,
+        };
+        println!("{name:45} {:+.1e}", visible - expected(case));
+        assert!((visible - expected(case)).abs() < tolerance, "{name}: {visible}");
     }
 }
 
@@ -167,13 +317,14 @@ fn nusselts_area_of_points() {
 fn hemicube_of_points() {
     let mut buffers = Buffers::new();
     let mut hemicube = buffers.hemicube();
-    for PointCase { name, normal, polygon, blocker, factor } in point_cases() {
+    for case in POINT_CASES {
+        let [polygon, blocker] = target_polygons(&case.target);
         for turn in [0.0, 0.3, 0.6] {
             let mut row = [Estimate::default(); 2];
-            let bins = hemicube.point_row([DVec3::ZERO, normal], turn, &[&polygon, &blocker], &mut row);
+            let bins = hemicube.point_row([DVec3::ZERO, case.normal.into()], turn, &[&polygon, &blocker], &mut row);
             assert_eq!(row[0].value + row[1].value + bins.sky + bins.void, 1.0);
-            assert_within(name, row[0], factor, [0.08, 1e-3]);
-            assert!((row[0].value / factor - 1.0).abs() < 0.01, "{name}: {:?}", row[0]);
+            assert_within(case.name, row[0], expected(case), [0.15, 1e-3]);
+            assert!((row[0].value / expected(case) - 1.0).abs() < 0.02, "{}: {row:?}", case.name);
         }
     }
 }
@@ -181,50 +332,98 @@ fn hemicube_of_points() {
 #[test]
 fn rays_from_points() {
     let samples = Samples { scrambles: 16, points: 1024, seed: 5 };
-    for PointCase { name, normal, polygon, blocker, factor } in point_cases() {
+    for case in POINT_CASES {
+        let [polygon, blocker] = target_polygons(&case.target);
         let triangles: Vec<_> = fan(&polygon).chain(fan(&blocker)).collect();
-        let patch = |hit: &radiosity::geometry::Hit| (hit.triangle < polygon.len() as u32 - 2).then_some(0);
-        let sender = |_: Vec2| [Vec3::ZERO, normal.as_vec3()];
+        let patch = |hit: &Hit| (hit.triangle < polygon.len() as u32 - 2).then_some(0);
+        let normal = DVec3::from(case.normal).as_vec3();
         let mut row = [Estimate::<f64>::default()];
-        let bins = nusselt_rays(sender, &BruteForce(&triangles), patch, &samples, &mut row, &mut [0]);
+        let bins = nusselt_rays(|_| [Vec3::ZERO, normal], &BruteForce(&triangles), patch, &samples, &mut row, &mut [0]);
         assert!((row[0].value + bins.sky + bins.void - 1.0).abs() < 1e-12);
-        assert_within(name, row[0], factor, [0.1, 1e-3]);
+        assert_within(case.name, row[0], expected(case), [0.1, 2e-3]);
     }
 }
 
-/// Unit squares to half a percent, all to their own error.
+/// Sender, targets and blockers, with the form factor to all targets together.
+struct PolygonCase {
+    name: &'static str,
+    from: Polygon,
+    targets: Vec<Polygon>,
+    blockers: Vec<Polygon>,
+    factor: f64,
+}
+
+fn polygon_cases() -> Vec<PolygonCase> {
+    let unoccluded = SURFACE_CASES.iter().filter_map(|case| {
+        let [mut from, targets] = surface_polygons(&case.surfaces)?;
+        Some(PolygonCase { name: case.name, from: from.remove(0), targets, blockers: Vec::new(), factor: case.factor })
+    });
+    let corners = |polygon: &[occluded::Point]| -> Polygon { polygon.iter().map(|&corner| corner.into()).collect() };
+    let occluded = occluded::PAIRS.iter().filter(|pair| !pair.blockers.is_empty()).map(|pair| PolygonCase {
+        name: pair.name,
+        from: corners(pair.a),
+        targets: vec![corners(pair.b)],
+        blockers: pair.blockers.iter().map(|blocker| corners(blocker)).collect(),
+        factor: pair.factor,
+    });
+    unoccluded.chain(occluded).collect()
+}
+
+/// Whatever lies open to half a percent, all to their own error.
 #[test]
-fn hemicube_of_pairs() {
+fn hemicube_of_polygons() {
     let mut buffers = Buffers::new();
     let mut hemicube = buffers.hemicube();
     let samples = Samples { scrambles: 16, points: 32, seed: 2 };
-    for PairCase { name, from, to, blockers, factor } in pair_cases() {
-        let patches: Vec<&[DVec3]> = [&to].into_iter().chain(&blockers).map(Vec::as_slice).collect();
-        let mut rows = vec![[Estimate::default(); 2]; patches.len()].concat();
-        let (row, scratch) = rows.split_at_mut(patches.len());
-        let bins = hemicube.polygon_row(&from, &patches, &samples, row, scratch);
+    for PolygonCase { name, from, targets, blockers, factor } in polygon_cases() {
+        let patches: Vec<&[DVec3]> = targets.iter().chain(&blockers).map(Vec::as_slice).collect();
+        let (mut row, mut scratch) =
+            (vec![Estimate::default(); patches.len()], vec![Estimate::default(); patches.len()]);
+        let bins = hemicube.polygon_row(&from, &patches, &samples, &mut row, &mut scratch);
         let sum: f64 = row.iter().map(|entry| entry.value).sum();
         assert!((sum + bins.sky + bins.void - 1.0).abs() < 1e-12);
-        assert_within(&name, row[0], factor, [0.05, 1e-3]);
-        if blockers.is_empty() {
-            assert!((row[0].value / factor - 1.0).abs() < 0.005, "{name}: {:?} is not {factor}", row[0]);
-        }
+        let all = row[..targets.len()].iter().fold(Estimate::default(), |all, entry| Estimate {
+            value: all.value + entry.value,
+            error: all.error + entry.error,
+        });
+        assert_within(name, all, factor, [0.08, 2e-3]);
+        assert!(!blockers.is_empty() || (all.value / factor - 1.0).abs() < 0.005, "{name}: {all:?} is not {factor}");
     }
 }
 
 #[test]
-fn rays_of_pairs() {
+fn rays_of_polygons() {
     let samples = Samples { scrambles: 16, points: 4096, seed: 9 };
-    let is_small = |polygon: &Vec<DVec3>| polygon.iter().all(|corner| corner.length() < 1e3);
-    let in_single_precision = |pair: &PairCase| [&pair.from, &pair.to].into_iter().chain(&pair.blockers).all(is_small);
-    for PairCase { name, from, to, blockers, factor } in pair_cases().into_iter().filter(in_single_precision) {
-        let triangles: Vec<_> = fan(&to).chain(blockers.iter().flat_map(|blocker| fan(blocker))).collect();
-        let from: Vec<Vec3> = from.iter().map(|corner| corner.as_vec3()).collect();
-        let patch = |hit: &radiosity::geometry::Hit| (hit.triangle < to.len() as u32 - 2 && hit.front).then_some(0);
-        let mut row = [Estimate::<f64>::default()];
-        nusselt_rays(polygon_sender(&from), &BruteForce(&triangles), patch, &samples, &mut row, &mut [0]);
-        assert_within(&name, row[0], factor, [0.06, 1e-3]);
+    // In single precision triangles 10^4 times as long as they are wide have no edges to speak of.
+    let is_bounded = |polygon: &Polygon| polygon.iter().all(|corner| corner.length() < 1e3);
+    let cases = polygon_cases()
+        .into_iter()
+        .filter(|case| [&case.from].into_iter().chain(&case.targets).chain(&case.blockers).all(is_bounded));
+    for PolygonCase { name, from, targets, blockers, factor } in cases {
+        let targets: Vec<_> = targets.iter().flat_map(|target| fan(target)).collect();
+        let triangles: Vec<_> =
+            targets.iter().copied().chain(blockers.iter().flat_map(|blocker| fan(blocker))).collect();
+        let patch = |hit: &Hit| (hit.triangle < targets.len() as u32 && hit.front).then_some(0);
+        let mut row = [Estimate::default()];
+        nusselt_rays(polygon_sender(&single(&from)), &BruteForce(&triangles), patch, &samples, &mut row, &mut [0]);
+        assert_within(name, row[0], factor, [0.06, 1e-3]);
     }
+}
+
+#[test]
+fn rays_of_round_surfaces() {
+    let samples = Samples { scrambles: 16, points: 4096, seed: 4 };
+    let mut count = 0;
+    for case in SURFACE_CASES {
+        if let Some((sender, shape)) = round(&case.surfaces) {
+            let mut row = [Estimate::default()];
+            nusselt_rays(sender, &shape, |_| Some(0), &samples, &mut row, &mut [0]);
+            assert_within(case.name, row[0], case.factor, [0.1, 1e-3]);
+            count += 1;
+        }
+    }
+    let polygons = SURFACE_CASES.iter().filter(|case| surface_polygons(&case.surfaces).is_some()).count();
+    assert_eq!(count + polygons, SURFACE_CASES.len(), "rays do them all");
 }
 
 /// The picture in the documentation is what the example draws.

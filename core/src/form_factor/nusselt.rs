@@ -1,14 +1,12 @@
 //! Nusselt's projection: what a point sees, carried onto the hemisphere around it and from there straight down onto
 //! the disc below. The share of the disc that is covered is the form factor.
 //!
-#![doc = include_str!("nusselt.svg")]
-//!
 //! An edge of a polygon becomes an arc of a great circle on the hemisphere and an arc of an ellipse on the disc, whose
 //! larger half axis is 1. [`nusselt_area`] computes the area that these arcs enclose. [`nusselt_rays`] goes the other
 //! way: it lifts points that fill the disc evenly onto the hemisphere and looks what is there, whatever it be.
 //!
 //! Nusselt, "Graphische Bestimmung des Winkelverhältnisses bei der Wärmestrahlung", VDI-Zeitschrift 72, 1928. The
-//! picture is drawn by the example `nusselt`.
+//! picture at [`nusselt_area`] is drawn by the example `nusselt`.
 
 use glam::{Vec2, Vec3};
 
@@ -35,6 +33,11 @@ pub struct DiscArc<R> {
 
 /// Area over pi of the projection of a polygon: the share of the power leaving `point` that lands on it, with nothing
 /// between.
+///
+/// The polygon is projected onto the hemisphere around the point, and from there straight down onto the disc below. Its
+/// edges become arcs of ellipses:
+///
+#[doc = include_str!("nusselt.svg")]
 ///
 /// `normal` has length 1. The polygon is planar, of any shape, and receives on the side from which it runs
 /// counter-clockwise: seen from behind it has 0. What lies below the horizon does not count. In `[0, 1]`.

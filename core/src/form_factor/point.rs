@@ -51,7 +51,8 @@ pub fn point_to_point_error<V: Vector>(p: &SmallPatch<V>, q: &SmallPatch<V>) -> 
     let r = to_q.length();
     let most = point_to_point(p.center, p.normal, q.center, q.normal, q.area).max(one);
     let d = (p.radius + q.radius) / r;
-    if !(d < one) {
+    let is_apart = d < one;
+    if !is_apart {
         return most;
     }
     let (cos_p, cos_q) = (to_q.dot(p.normal) / r, -to_q.dot(q.normal) / r);

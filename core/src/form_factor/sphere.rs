@@ -16,7 +16,8 @@ pub fn point_to_sphere<V: Vector>(point: V, normal: V, center: V, radius: V::Sca
 /// To a sphere of radius 1 at `distance`, at least 1, under the given cosine.
 fn ball<R: Real>(distance: R, cos: R) -> R {
     let height = distance * cos;
-    if !(distance >= R::ONE) || height <= -R::ONE {
+    let is_seen = distance >= R::ONE && height > -R::ONE;
+    if !is_seen {
         return R::ZERO;
     }
     let squared = distance * distance;
@@ -75,7 +76,8 @@ pub fn outer_sphere_to_inner<R: Real>(inner: R, outer: R) -> R {
 /// integral over the polar angle elsewhere. Computed in `f64`. Juul 1976.
 pub fn sphere_to_sphere<R: Real>(from: R, to: R, distance: R) -> R {
     let (from, to, distance) = (from.to_f64(), to.to_f64(), distance.to_f64());
-    if !(distance >= from + to) {
+    let is_apart = distance >= from + to;
+    if !is_apart {
         return R::ZERO;
     }
     let (large, small) = (Real::max(from, to), Real::min(from, to));

@@ -14,7 +14,8 @@ pub type Planar<R> = [R; 2];
 /// `normal` has length 1. What lies below the horizon of `point` does not count. In `[0, 1]`, to a few roundings; 0 behind
 /// the strip and on its line. Hottel 1954.
 pub fn point_to_strip<R: Real>(point: Planar<R>, normal: Planar<R>, strip: [Planar<R>; 2]) -> R {
-    if !(side(strip, point) > R::ZERO) {
+    let is_in_front = side(strip, point) > R::ZERO;
+    if !is_in_front {
         return R::ZERO;
     }
     let Some(ends) = left_of([point, [point[0] + normal[1], point[1] - normal[0]]], strip) else {

@@ -49,6 +49,11 @@ pub(super) fn means<V: Vector>(triangle: &[V; 3], f: impl Fn(V) -> V::Scalar) ->
     Means { coarse, fine, range: high - low }
 }
 
+/// The mean of `f` over a triangle by 16 points.
+pub(super) fn mean<V: Vector>(triangle: &[V; 3], f: &mut impl FnMut(V) -> V::Scalar) -> V::Scalar {
+    FINE.iter().map(|orbit| orbit_sum(triangle, orbit, f)).sum()
+}
+
 /// Weighted sum over the points that arise when the barycentric coordinates change places.
 fn orbit_sum<V: Vector>(triangle: &[V; 3], &(weight, a, b): &Orbit, f: &mut impl FnMut(V) -> V::Scalar) -> V::Scalar {
     let c = 1.0 - a - b;

@@ -3,21 +3,6 @@
 //! Cohen and Greenberg, "The Hemi-Cube: A Radiosity Solution for Complex Environments", 1985. The top has `N x N`
 //! pixels, each of the four sides `N x N/2`. An item buffer keeps for each pixel which patch is nearest there; the
 //! form factor of a patch is the sum of the delta form factors of its pixels.
-//!
-//! The error falls with the resolution. Relative to the form factors of 60 parallelograms of any position, each in three
-//! turns of the cube, it is
-//!
-//! | `N` | rms | worst | mean of the bound that a row tells | pixels |
-//! |---|---|---|---|---|
-//! | 16 | 9 % | 46 % | 90 % | 768 |
-//! | 32 | 4 % | 37 % | 43 % | 3 072 |
-//! | 64 | 1.1 % | 5 % | 21 % | 12 288 |
-//! | 128 | 0.36 % | 2.2 % | 10 % | 49 152 |
-//! | 256 | 0.19 % | 1.9 % | 5 % | 196 608 |
-//! | 512 | 0.05 % | 0.3 % | 2.6 % | 786 432 |
-//!
-//! The worst ones are small, of which the error of a few pixels is a large share: a hemicube aliases. Means over points
-//! and turns do not.
 
 mod delta;
 mod rows;
@@ -64,6 +49,21 @@ pub struct HemicubeBuffers<'a> {
 }
 
 /// Half a cube around a point, with what is nearest in each of its pixels.
+///
+/// The error falls with the resolution. Relative to the form factors of 60 parallelograms of any position, each in three
+/// turns of the cube, it is
+///
+/// | `N` | rms | worst | mean of the bound that a row tells | pixels |
+/// |---|---|---|---|---|
+/// | 16 | 9 % | 46 % | 90 % | 768 |
+/// | 32 | 4 % | 37 % | 43 % | 3 072 |
+/// | 64 | 1.1 % | 5 % | 21 % | 12 288 |
+/// | 128 | 0.36 % | 2.2 % | 10 % | 49 152 |
+/// | 256 | 0.19 % | 1.9 % | 5 % | 196 608 |
+/// | 512 | 0.05 % | 0.3 % | 2.6 % | 786 432 |
+///
+/// The worst ones are small, of which the error of a few pixels is a large share: a hemicube aliases. Means over points
+/// and turns do not.
 #[derive(Debug)]
 pub struct Hemicube<'a> {
     resolution: usize,
