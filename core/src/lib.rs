@@ -28,11 +28,14 @@
 //! | `progress`, `parallel` | a running bake, seen and stopped; work cut into chunks |
 //! | `material` | reflectance, exitance, alpha, textures |
 //! | [`geometry`] | triangles, rays, directions, Sobol points, the tree |
+//! | [`spline`] | Bezier curves and surfaces |
+//! | [`composite`] | triangles to pixels, with a depth buffer |
 //! | [`form_factor`] | the share of the light of one surface that reaches another |
 //! | `light` | the irradiance that a lamp gives at a point |
 //! | [`solve`] | the radiosity equation `b = e + rho F b` |
+//! | [`patch`] | surfaces in pieces: uniform, by proximity, adaptive; the classical method from end to end |
 //! | `scene` | surfaces, materials and lights; the measured Cornell box |
-//! | `transport` | rows of form factors from rays |
+//! | `transport` | what rays count, and lightmaps for other light from it |
 //! | `lightmap` | charts, atlases, texels, patches of them: direct light, gathered light, repairs |
 //! | `bake` | the whole pipeline, its settings and its report |
 //! | `render` | a baked scene as a camera sees it |
@@ -54,7 +57,7 @@
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | none | `math`, `spectrum`, `geometry`, `form_factor`, `solve` on slices: neither heap nor operating system |
+//! | none | `math`, `spectrum`, `geometry`, `spline`, `composite`, `form_factor`, `solve`, uniform `patch`es, on slices: neither heap nor operating system |
 //! | `alloc` | all other modules |
 //! | `std` | the clock and the float functions of the system |
 //! | `bvh`, `parallel`, `unwrap` | the tree of obvhs, the threads of rayon, coordinates for meshes that have none |
@@ -76,10 +79,13 @@ pub mod parallel;
 #[cfg(feature = "alloc")]
 pub mod material;
 pub mod geometry;
+pub mod spline;
+pub mod composite;
 pub mod form_factor;
 #[cfg(feature = "alloc")]
 pub mod light;
 pub mod solve;
+pub mod patch;
 #[cfg(feature = "alloc")]
 pub mod scene;
 #[cfg(feature = "alloc")]

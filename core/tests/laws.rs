@@ -186,3 +186,26 @@ fn emitters_follow_their_alpha() {
     assert_eq!(at(0.2, AlphaMode::Mask(0.5)), 0.0);
     assert!((at(0.5, AlphaMode::Blend) / whole - 0.5).abs() < 1e-3);
 }
+
+/// A shadow ray ends before the emitter that it asks for, however near that is and however far both are from the origin.
+#[test]
+fn emitters_do_not_shade_themselves() {
+    let under_a_panel = |[x, y, z]: [f32; 3], height: f32| {
+        let mut scene = Scene { materials: vec![grey(0.0, 0.0), grey(0.0, 10.0)], ..Default::default() };
+        let square = |half: f32, h: f32| {
+            [[-half, h, half], [half, h, half], [half, h, -half], [-half, h, -half]]
+                .map(|[a, b, c]| [x + a, y + b, z + c])
+        };
+        add_quad(&mut scene, "floor", square(2.0, 0.0), 0);
+        let [a, b, c, d] = square(0.4, height);
+        add_quad(&mut scene, "panel", [d, c, b, a], 1);
+        lookup(&scene, &baked(&scene, &settings(16.0, Quality::Draft)), Vec3::new(x, y, z), Vec3::Y).x
+    };
+    for height in [0.05, 0.5, 2.5] {
+        let expected = under_a_panel([0.0; 3], height);
+        for place in [[3.0, 3.0, 3.0], [0.0, 100.0, 0.0], [1000.0, 0.0, -500.0]] {
+            let got = under_a_panel(place, height);
+            assert!((got / expected - 1.0).abs() < 0.01, "{got} instead of {expected}, {height} m above {place:?}");
+        }
+    }
+}

@@ -21,11 +21,7 @@ pub(super) struct Assembly<'a> {
 
 impl Assembly<'_> {
     /// The finished images: direct and indirect light together, what is missing filled in; and how it was filled.
-    pub fn images(
-        &self,
-        direct: &[Vec3A],
-        indirect: &[Smooth],
-    ) -> Result<(Vec<LightmapImage>, Vec<Fills>), Cancelled> {
+    pub fn images(&self, direct: &[Vec3A], indirect: &[Smooth]) -> Result<(Vec<LightmapImage>, Vec<Fills>), Cancelled> {
         let finished = self.workers.map(self.texels.sizes.len(), 1, self.progress, |range| {
             range
                 .map(|index| {
@@ -68,7 +64,8 @@ impl Assembly<'_> {
 
     fn stored(&self, index: usize, fills: Fills) -> StoredImage {
         let [width, height] = self.texels.sizes[index];
-        let of_image = self.texels.list.iter().zip(self.is_valid).filter(|(texel, _)| usize::from(texel.image) == index);
+        let of_image =
+            self.texels.list.iter().zip(self.is_valid).filter(|(texel, _)| usize::from(texel.image) == index);
         let places = of_image.map(|(texel, &is_valid)| {
             let [column, row] = texel.pixel.map(u32::from);
             if is_valid { row * width + column } else { StoredImage::NOWHERE }

@@ -23,8 +23,7 @@ use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Occluders, hash, tree};
 use crate::lightmap::{
-    Direct, Gather, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels, filter,
-    layout,
+    Direct, Gather, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels, filter, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -106,7 +105,8 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter_after(Stage::Finish, tracer);
     let assembly = Assembly { texels, is_valid: &is_valid, patches, workers, progress };
     let (images, fills) = assembly.images(&direct, &indirect)?;
-    let done = Done { world: &world, texels, is_valid: &is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
+    let done =
+        Done { world: &world, texels, is_valid: &is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
     let report = done.report(&layout, &lighting, &direct, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,

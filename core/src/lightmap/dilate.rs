@@ -52,12 +52,7 @@ struct Filling<'a> {
 
 impl Filling<'_> {
     /// Ring after ring until nothing changes; returns what could not be reached.
-    fn fill(
-        &mut self,
-        mut wanted: Vec<usize>,
-        same_chart: bool,
-        progress: &Progress,
-    ) -> Result<Vec<usize>, Cancelled> {
+    fn fill(&mut self, mut wanted: Vec<usize>, same_chart: bool, progress: &Progress) -> Result<Vec<usize>, Cancelled> {
         while !wanted.is_empty() && !self.grow(&wanted, same_chart).is_empty() {
             progress.check()?;
             wanted.retain(|&at| !self.known[at]);
@@ -81,7 +76,8 @@ impl Filling<'_> {
     /// The known texels around one, a bit each.
     fn sources(&self, at: usize, same_chart: bool) -> u8 {
         let charts = &self.image.charts;
-        let is_source = |&(_, other): &(usize, usize)| self.known[other] && (!same_chart || charts[other] == charts[at]);
+        let is_source =
+            |&(_, other): &(usize, usize)| self.known[other] && (!same_chart || charts[other] == charts[at]);
         neighbors(self.image, at).filter(is_source).map(|(k, _)| 1 << k).sum()
     }
 }

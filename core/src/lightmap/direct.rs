@@ -42,12 +42,7 @@ pub struct Direct<'a, O> {
 
 impl<O: Occluders> Direct<'_, O> {
     /// Irradiance / pi from one light for each texel, zero for those that are not valid.
-    pub fn light(
-        &self,
-        light: &DirectLight,
-        workers: &Workers,
-        progress: &Progress,
-    ) -> Result<Vec<Vec3>, Cancelled> {
+    pub fn light(&self, light: &DirectLight, workers: &Workers, progress: &Progress) -> Result<Vec<Vec3>, Cancelled> {
         let count = self.texels.list.len();
         let shares =
             workers.map(count, 512, progress, |range| range.map(|index| self.first_look(light, index)).collect())?;
@@ -110,9 +105,8 @@ impl<O: Occluders> Direct<'_, O> {
             let from = point(k);
             let ray = light.shadow_ray(sequence.square(k), from, texel.normal);
             if ray.weight > 0.0 && ray.direction.dot(flat) > 0.0 {
-                let end = if ray.end == 1.0 { 1.0 - 1e-4 } else { ray.end };
-                arrived += ray.weight
-                    * self.tracer.visibility(&self.tracer.leave(texel.triangle, from, flat, ray.direction, end));
+                let visibility = self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray));
+                arrived += ray.weight * visibility;
                 self.tracer.count(1);
             }
             all += ray.weight.max(0.0);

@@ -14,8 +14,8 @@ pub use vector::*;
 mod single {
     pub use libm::{
         acosf as acos, asinf as asin, atan2f as atan2, atanf as atan, ceilf as ceil, cosf as cos, exp2f as exp2,
-        expf as exp, floorf as floor, log2f as log2, logf as ln, powf, roundf as round, sinf as sin, sqrtf as sqrt,
-        tanf as tan,
+        expf as exp, floorf as floor, log1pf as ln_1p, log2f as log2, logf as ln, powf, roundf as round, sinf as sin,
+        sqrtf as sqrt, tanf as tan,
     };
 
     /// Sine and cosine of an angle in radians.
@@ -26,7 +26,7 @@ mod single {
 
 #[cfg(any(feature = "libm", not(feature = "std")))]
 mod double {
-    pub use libm::{acos, asin, atan, atan2, cos, exp, floor, log as ln, sin, sqrt, tan};
+    pub use libm::{acos, asin, atan, atan2, cos, exp, floor, log as ln, log1p as ln_1p, sin, sqrt, tan};
 }
 
 #[cfg(all(feature = "std", not(feature = "libm")))]
@@ -50,7 +50,7 @@ macro_rules! of_std {
 
 #[cfg(all(feature = "std", not(feature = "libm")))]
 mod single {
-    of_std!(f32: acos, asin, atan, ceil, cos, exp2, exp, floor, log2, ln, round, sin, sqrt, tan);
+    of_std!(f32: acos, asin, atan, ceil, cos, exp2, exp, floor, log2, ln, ln_1p, round, sin, sqrt, tan);
 
     /// `f32::powf`
     #[inline]
@@ -67,5 +67,5 @@ mod single {
 
 #[cfg(all(feature = "std", not(feature = "libm")))]
 mod double {
-    of_std!(f64: acos, asin, atan, cos, exp, floor, ln, sin, sqrt, tan);
+    of_std!(f64: acos, asin, atan, cos, exp, floor, ln, ln_1p, sin, sqrt, tan);
 }

@@ -68,6 +68,8 @@ pub trait Real:
     fn exp(self) -> Self;
     /// Natural logarithm; NaN below 0.
     fn ln(self) -> Self;
+    /// `ln(1 + x)`, to full precision for small `x` too; NaN below -1.
+    fn ln_1p(self) -> Self;
     /// The largest whole number that is not larger.
     fn floor(self) -> Self;
 
@@ -122,5 +124,5 @@ macro_rules! real {
     };
 }
 
-real!(f32, single, [sqrt, sin, cos, tan, asin, acos, atan, exp, ln, floor]);
-real!(f64, double, [sqrt, sin, cos, tan, asin, acos, atan, exp, ln, floor]);
+real!(f32, single, [sqrt, sin, cos, tan, asin, acos, atan, exp, ln, ln_1p, floor]);
+real!(f64, double, [sqrt, sin, cos, tan, asin, acos, atan, exp, ln, ln_1p, floor]);

@@ -11,16 +11,15 @@ use glam::{Affine3A, Vec3, Vec3A};
 use super::{Receiver, Scene, Surface};
 use crate::geometry::Mesh;
 use crate::material::Material;
+use crate::spectrum::{Bands, CORNELL_GREEN, CORNELL_RED, CORNELL_WHITE, cornell_band};
 
 /// Radiance of the lamp in cd/m2, the same in all three bands: the picture is balanced for its light, as the photograph
 /// of the box was. The lamp gives about 500 lm, as a 40 W bulb does, and the middle of the floor gets about 700 lx, as
 /// a well-lit desk does.
 const LAMP_RADIANCE: f32 = 11_500.0;
 
-const LAMP: [f32; 3] = [0.78, 0.78, 0.78];
-const WHITE: [f32; 3] = [0.744, 0.748, 0.767];
-const RED: [f32; 3] = [0.513, 0.061, 0.061];
-const GREEN: [f32; 3] = [0.126, 0.406, 0.101];
+/// What the lamp reflects, at all wavelengths.
+const LAMP: Bands<76> = Bands([0.78; 76]);
 
 /// Vertical field of view of the camera in radians: a film of 25 mm behind a lens of 35 mm, `2 atan(12.5 / 35)`.
 const FOV_Y: f32 = 0.68604788;
@@ -38,9 +37,9 @@ pub fn cornell_box() -> Scene {
     let emissive = Vec3::splat(LAMP_RADIANCE);
     let mut scene = Scene {
         materials: vec![
-            paint("white", WHITE),
-            paint("red", RED),
-            paint("green", GREEN),
+            paint("white", CORNELL_WHITE),
+            paint("red", CORNELL_RED),
+            paint("green", CORNELL_GREEN),
             Material { emissive, ..paint("lamp", LAMP) },
         ],
         ..Default::default()
@@ -69,7 +68,8 @@ pub fn cornell_camera() -> (Affine3A, f32) {
     (Affine3A::from_cols(Vec3A::NEG_X, Vec3A::Y, Vec3A::NEG_Z, position), FOV_Y)
 }
 
-fn paint(name: &str, [red, green, blue]: [f32; 3]) -> Material {
+fn paint(name: &str, reflectance: Bands<76>) -> Material {
+    let [red, green, blue] = [620.0, 548.0, 452.0].map(|wavelength| reflectance.0[cornell_band(wavelength)]);
     Material { name: name.into(), base_color: Vec3::new(red, green, blue).extend(1.0), ..Default::default() }
 }
 

@@ -1,156 +1,83 @@
-//! The radiosity equation `b = e + rho F b`: three ways to the same solution, from any start.
+//! The radiosity equation `b = e + rho F b`: six ways to the same solution, from any start.
 //!
-//! All solvers work on slices and are generic over the bands of light. `b` and `e` may be radiosities or radiances:
-//! the factor pi between them cancels.
+//! Each patch has the radiosity that it emits and its reflectance times what it receives. Lecture notes at times print
+//! the iteration without `rho_i`; then it does not converge in a closed room, where `F` alone loses no light. `b` and `e`
+//! may be radiosities or radiances: the factor pi between them cancels.
+//!
+//! A [`System`] has slices of `e` and `rho`, and form factors that give a row on demand ([`FormFactors`]). Nothing is
+//! allocated; the caller lends memory. All bands of light are solved at once, each as if it were alone.
+//!
+//! ```
+//! use radiosity::solve::{Dense, Stop, System, gauss_seidel};
+//!
+//! // Two plates that see each other by 0.4; the first one glows.
+//! let form_factors = Dense { count: 2, factors: &[0.0, 0.4, 0.4, 0.0] };
+//! let system = System::new(&[1.0, 0.0], &[0.5, 0.5], &form_factors);
+//! let mut radiosity = [0.0; 2];
+//! let solution = gauss_seidel(&system, &mut radiosity, &Stop { tolerance: 1e-9, most_steps: 100 });
+//! assert!(solution.is_converged && solution.bound < 1e-8);
+//! assert!((radiosity[1] - 0.2_f64 / 0.96).abs() < 1e-9);
+//! ```
+//!
+//! # Which one
+//!
+//! | | memory, in patches | needs | sweeps to 1e-4, `rho` 0.5, 0.8, 0.95 |
+//! |---|---|---|---|
+//! | [`jacobi`] | 1 | | 6, 22, 125 |
+//! | [`gauss_seidel`] | 0 | patches in an order | 5, 14, 71 |
+//! | [`over_relaxation`] | 0 | patches in an order; reciprocity | 4, 8, 20 |
+//! | [`southwell`] | 1 | areas; reciprocity; one row for each shot | 3, 13, 70 |
+//! | [`chebyshev`] | 2 | | 5, 10, 25 |
+//! | [`conjugate_gradient`] | 3 | areas; reciprocity; sums over all patches | 4, 6, 9 |
+//!
+//! The picture is from `examples/convergence.rs`: a closed cube of 294 patches, lit by one of them, until the error is
+//! certainly below 1e-6. Dashed is what theory says: `ln 1e-6 / ln rho` for Jacobi, and
+//! `ln 2e6 / ln((1 + sqrt(1 - rho^2)) / rho)` for Chebyshev. As many shots as there are patches count as one sweep.
+//!
+//! <div style="max-width: 45em">
+#![doc = include_str!("convergence.svg")]
+//! </div>
+//!
+//! With form factors that obey reciprocity conjugate gradients win: they save a quarter of the sweeps of Chebyshev at
+//! `rho` 0.5, half at 0.8 and seven eighths at 0.99. The bake uses Chebyshev all the same. Its form factors are counts
+//! of rays, which obey reciprocity only up to noise: measured on rooms with hundreds of small boxes and `rho` 0.98,
+//! conjugate gradients come to an error of 1e-3 in half the sweeps (19 to 25 against 42 to 56) and do not reach 1e-5
+//! at all, where Chebyshev takes 68 to 103. Nor does it sum over patches, so that all rows can run in parallel with the
+//! same bits for any number of threads. On one core, and without memory to spare, over-relaxation by
+//! [`OverRelaxation::new`] is as fast. Shooting shows most of the light first: its first shots are those of the
+//! lamps, and its ambient term ([`Southwell::ambient`]) stands in for what is still under way.
+//!
+//! # When it is done
+//!
+//! All stop on what is certain: with the residual `r = e + rho F b - b`,
+//! `max |b - b*| <= max |r| / (1 - c)`, where `c = max_i rho_i sum_j F_ij <= rho_max` ([`Decay`]). In an open scene `c`
+//! is below 1 even where `rho` is 1. In a closed one, patches that reflect all make `c = 1`; if light is absorbed
+//! elsewhere there still is a solution, and [`System::look_ahead`] finds a bound that is finite. If nothing absorbs
+//! there is none: what is emitted gathers forever. Then all solvers use up their steps, say that they are not
+//! converged, and give an infinite bound.
+//!
+//! Each is also a [`Solver`] that goes step by step, for views that show what is there and for machines that have other
+//! things to do.
 
 mod chebyshev;
+mod conjugate_gradient;
+mod decay;
 mod gauss_seidel;
 mod jacobi;
+mod over_relaxation;
+mod solver;
+mod southwell;
+mod sparse;
+mod start;
+mod system;
 
 pub use chebyshev::*;
+pub use conjugate_gradient::*;
+pub use decay::*;
 pub use gauss_seidel::*;
 pub use jacobi::*;
-
-use crate::math::Real;
-use crate::spectrum::Spectrum;
-
-/// The form factors of a system, a row on demand.
-pub trait FormFactors {
-    /// Single or double precision.
-    type Scalar: Real;
-
-    /// Calls `entry` with `j` and `F_ij` for each `j` that patch `i` sees, in a fixed order.
-    fn row(&self, i: usize, entry: impl FnMut(usize, Self::Scalar));
-
-    /// `sum_j F_ij b_j`: what patch `i` receives.
-    fn receive<S: Spectrum<Scalar = Self::Scalar>>(&self, i: usize, radiosity: &[S]) -> S {
-        let mut sum = S::default();
-        self.row(i, |j, factor| sum += radiosity[j] * factor);
-        sum
-    }
-}
-
-/// A full square matrix, row after row.
-#[derive(Clone, Copy, Debug)]
-pub struct Dense<'a, R> {
-    /// Of one row, and of one column.
-    pub count: usize,
-    /// `count x count` form factors; `F_ij` stands at `i x count + j`.
-    pub factors: &'a [R],
-}
-
-impl<R: Real> FormFactors for Dense<'_, R> {
-    type Scalar = R;
-
-    fn row(&self, i: usize, mut entry: impl FnMut(usize, R)) {
-        let row = &self.factors[i * self.count..(i + 1) * self.count];
-        row.iter().enumerate().for_each(|(j, &factor)| entry(j, factor));
-    }
-}
-
-/// A radiosity system: what the patches emit and reflect. All slices have one entry for each patch.
-#[derive(Clone, Copy, Debug)]
-pub struct System<'a, S, F> {
-    /// Exitance `e` of each patch.
-    pub exitance: &'a [S],
-    /// Reflectance `rho` of each patch, in `[0, 1)`.
-    pub reflectance: &'a [S],
-    /// `F`, with rows that sum to at most 1.
-    pub form_factors: &'a F,
-}
-
-impl<S: Spectrum, F: FormFactors<Scalar = S::Scalar>> System<'_, S, F> {
-    /// The right-hand side `e_i + rho_i sum_j F_ij b_j`.
-    fn update(&self, i: usize, radiosity: &[S]) -> S {
-        self.exitance[i] + self.reflectance[i] * self.form_factors.receive(i, radiosity)
-    }
-
-    /// The largest reflectance of any patch in any band: it bounds how fast the light dies out.
-    fn largest_reflectance(&self) -> S::Scalar {
-        self.reflectance.iter().fold(S::Scalar::ZERO, |largest, rho| largest.max(rho.max_abs()))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::spectrum::Bands;
-
-    type Solver<S> = fn(&System<S, Dense<f32>>, &mut [S], &mut [S], f32, usize) -> usize;
-
-    /// Form factors between the walls of a cube: 0.1998 to the opposite wall, the rest shared by the other four.
-    fn cube() -> [f32; 36] {
-        let opposite = 0.199_824_9;
-        let adjacent = (1.0 - opposite) / 4.0;
-        core::array::from_fn(|k| match (k / 6, k % 6) {
-            (i, j) if i == j => 0.0,
-            (i, j) if i / 2 == j / 2 => opposite,
-            _ => adjacent,
-        })
-    }
-
-    fn solvers<S: Spectrum<Scalar = f32>>() -> [Solver<S>; 3] {
-        [
-            |system, b, scratch, tolerance, sweeps| jacobi(system, b, scratch, tolerance, sweeps),
-            |system, b, _, tolerance, sweeps| gauss_seidel(system, b, tolerance, sweeps),
-            |system, b, scratch, tolerance, sweeps| chebyshev(system, b, scratch, tolerance, sweeps),
-        ]
-    }
-
-    /// In a closed enclosure of uniform rho and e, every patch ends at b = e / (1 - rho).
-    #[test]
-    fn white_furnace_from_any_start() {
-        let factors = cube();
-        let system = System {
-            exitance: &[1.0; 6],
-            reflectance: &[0.75; 6],
-            form_factors: &Dense { count: 6, factors: &factors },
-        };
-        for solve in solvers::<f32>() {
-            for start in [0.0, 3.0, 100.0] {
-                let (mut b, mut scratch) = ([start; 6], [0.0; 12]);
-                solve(&system, &mut b, &mut scratch, 1e-6, 200);
-                assert!(b.iter().all(|b| (b - 4.0).abs() < 1e-4), "{b:?}");
-            }
-        }
-    }
-
-    /// Bands do not mix: three bands at once are three systems of one band.
-    #[test]
-    fn each_band_on_its_own() {
-        let factors = cube();
-        let reflectance: [Bands<3>; 6] = core::array::from_fn(|i| Bands([0.1, 0.5, 0.9 - 0.1 * i as f32]));
-        let exitance: [Bands<3>; 6] = core::array::from_fn(|i| Bands([i as f32, 1.0, (i == 2) as u8 as f32]));
-        let mut together = [Bands::<3>::default(); 6];
-        let system = System {
-            exitance: &exitance,
-            reflectance: &reflectance,
-            form_factors: &Dense { count: 6, factors: &factors },
-        };
-        gauss_seidel(&system, &mut together, 1e-7, 400);
-        for band in 0..3 {
-            let (e, rho) = (exitance.map(|e| e.0[band]), reflectance.map(|rho| rho.0[band]));
-            let system =
-                System { exitance: &e, reflectance: &rho, form_factors: &Dense { count: 6, factors: &factors } };
-            for solve in solvers::<f32>() {
-                let (mut b, mut scratch) = ([0.0; 6], [0.0; 12]);
-                solve(&system, &mut b, &mut scratch, 1e-7, 400);
-                (0..6).for_each(|i| assert!((b[i] - together[i].0[band]).abs() < 1e-4));
-            }
-        }
-    }
-
-    /// Each sweep of Gauss-Seidel uses what it just found, so it needs fewer; Chebyshev fewer still at high rho.
-    #[test]
-    fn sweeps_are_ordered_as_in_theory() {
-        let factors = cube();
-        let system = System {
-            exitance: &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-            reflectance: &[0.9; 6],
-            form_factors: &Dense { count: 6, factors: &factors },
-        };
-        let [jacobi, gauss_seidel, chebyshev] =
-            solvers::<f32>().map(|solve| solve(&system, &mut [0.0; 6], &mut [0.0; 12], 1e-4, 1000));
-        assert!(gauss_seidel < jacobi && chebyshev < jacobi, "{jacobi} {gauss_seidel} {chebyshev}");
-    }
-}
+pub use over_relaxation::*;
+pub use solver::*;
+pub use southwell::*;
+pub use start::*;
+pub use system::*;

@@ -46,7 +46,9 @@ impl Fills {
             let (x, y) = ((at % width) as i32, (at / width) as i32);
             let mut sources = NEIGHBORS.iter().enumerate().filter(|(k, _)| from >> k & 1 == 1);
             at < width * height
-                && sources.all(|(_, [dx, dy])| (0..width as i32).contains(&(x + dx)) && (0..height as i32).contains(&(y + dy)))
+                && sources.all(|(_, [dx, dy])| {
+                    (0..width as i32).contains(&(x + dx)) && (0..height as i32).contains(&(y + dy))
+                })
         };
         let in_order = self.rings.is_sorted() && self.rings.last().map_or(0, |&end| end as usize) == self.texels.len();
         let fits = self.width == width && self.from.len() == self.texels.len();

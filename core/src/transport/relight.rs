@@ -149,9 +149,8 @@ impl Transport {
 
     /// What each node gathers of the radiance of the pieces of surface: irradiance / pi.
     pub fn gather(&self, radiance: &[Vec3A], workers: &Workers, progress: &Progress) -> Result<Vec<Vec3A>, Cancelled> {
-        workers.map(self.nodes.len(), 1024, progress, |range| {
-            range.map(|node| self.nodes.mean(node, radiance)).collect()
-        })
+        workers
+            .map(self.nodes.len(), 1024, progress, |range| range.map(|node| self.nodes.mean(node, radiance)).collect())
     }
 
     /// The finished texels of all images.

@@ -5,6 +5,7 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 use glam::Vec3;
 
 use crate::geometry::{Hit, Occluders, Ray, hash};
+use crate::light::ShadowRay;
 use crate::scene::World;
 
 /// Traces rays through a world.
@@ -66,5 +67,18 @@ impl<'a, O: Occluders> Tracer<'a, O> {
     #[inline]
     pub fn leave(&self, triangle: u32, point: Vec3, normal: Vec3, direction: Vec3, end: f32) -> Ray {
         Ray { origin: point + normal * self.world.lift(triangle), direction, end }
+    }
+
+    /// A ray from a point of a triangle, just above it on the side of `normal`, to a point of a light. It ends before
+    /// the light, which may be a surface: by a ten-thousandth of the way, or by what points are lifted where that is
+    /// more.
+    pub fn leave_for(&self, triangle: u32, point: Vec3, normal: Vec3, light: &ShadowRay) -> Ray {
+        if light.end == f32::INFINITY {
+            return self.leave(triangle, point, normal, light.direction, light.end);
+        }
+        let lift = self.world.lift(triangle);
+        let direction = light.direction - normal * lift;
+        let slack = (2.0 * lift / direction.length()).max(1e-4);
+        Ray { origin: point + normal * lift, direction, end: light.end - slack }
     }
 }

@@ -1,8 +1,12 @@
 //! What is carried by light: grey, RGB, or any number of wavelength bands, each on its own.
 
+mod cornell;
+
+pub use cornell::*;
+
 use core::ops::{Add, AddAssign, Mul, Sub};
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec3A};
 
 use crate::math::Real;
 
@@ -26,6 +30,8 @@ pub trait Spectrum:
     fn splat(value: Self::Scalar) -> Self;
     /// The largest magnitude of all bands.
     fn max_abs(self) -> Self::Scalar;
+    /// Applies a function of two numbers band by band.
+    fn zip(self, other: Self, apply: impl Fn(Self::Scalar, Self::Scalar) -> Self::Scalar) -> Self;
 }
 
 macro_rules! gray {
@@ -38,6 +44,9 @@ macro_rules! gray {
             }
             fn max_abs(self) -> Self {
                 Real::abs(self)
+            }
+            fn zip(self, other: Self, apply: impl Fn(Self, Self) -> Self) -> Self {
+                apply(self, other)
             }
         }
     };
@@ -57,22 +66,20 @@ macro_rules! rgb {
             fn max_abs(self) -> $real {
                 self.abs().max_element()
             }
+            fn zip(self, other: Self, apply: impl Fn($real, $real) -> $real) -> Self {
+                Self::new(apply(self.x, other.x), apply(self.y, other.y), apply(self.z, other.z))
+            }
         }
     };
 }
 
 rgb!(Vec3, f32);
+rgb!(Vec3A, f32);
 rgb!(DVec3, f64);
 
 /// `N` wavelength bands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bands<const N: usize, R = f32>(pub [R; N]);
-
-impl<const N: usize, R: Real> Bands<N, R> {
-    fn zip(self, other: Self, apply: impl Fn(R, R) -> R) -> Self {
-        Self(core::array::from_fn(|band| apply(self.0[band], other.0[band])))
-    }
-}
 
 impl<const N: usize, R: Real> Default for Bands<N, R> {
     fn default() -> Self {
@@ -122,5 +129,8 @@ impl<const N: usize, R: Real> Spectrum for Bands<N, R> {
     }
     fn max_abs(self) -> R {
         self.0.iter().fold(R::ZERO, |largest, &a| largest.max(a.abs()))
+    }
+    fn zip(self, other: Self, apply: impl Fn(R, R) -> R) -> Self {
+        Self(core::array::from_fn(|band| apply(self.0[band], other.0[band])))
     }
 }

@@ -1,0 +1,129 @@
+//! After solving: cut where the solution varies.
+
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+
+use super::topology::{restrict, split};
+use super::{Element, Field, Shape, Solution};
+use crate::math::{Real, Vector};
+use crate::spectrum::Spectrum;
+
+/// How far to go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refinement<R> {
+    /// The root mean square over all surfaces of how far the radiosity differs from that of its element, as a share of
+    /// the root mean square of what is reflected. 0.1 gives a coarse picture, 0.02 a fine one.
+    pub tolerance: R,
+    /// Elements with less than twice this area, in square meters, are not cut any more.
+    pub smallest_area: R,
+    /// No more is cut where there are as many elements; keeping neighbors alike may take a few more.
+    pub most_elements: usize,
+    /// The tolerance of the solver, as a share of the largest radiosity; 1e-6 is usual.
+    pub solver_tolerance: R,
+}
+
+/// Why refinement ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refined {
+    /// The tolerance is met.
+    Tolerance,
+    /// What is left to cut is too small.
+    SmallestArea,
+    /// There are as many elements as may be.
+    MostElements,
+}
+
+/// The share of the square of the error that is cut in one step: the bulk criterion of Doerfler 1996.
+const BULK: f64 = 0.6;
+
+impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Solution<V, S> {
+    /// Cuts the elements on which the solution varies most, computes the form factors of the pieces and solves again,
+    /// until the estimated error is within the tolerance. Gives the reason to end and the estimated error.
+    ///
+    /// The error of an element is estimated by how far the continuous function through the solution ([`Field`])
+    /// differs from its one value, so gradients and jumps between neighbors count alike (Zienkiewicz and Zhu 1987).
+    /// What was not cut keeps its form factors, and the solution is the start of the next one. A feature that no
+    /// element shows, as a shadow that is smaller than the first elements, is not found: start fine enough.
+    pub fn refine(
+        &mut self,
+        shapes: &[Shape<V, S>],
+        settings: &Refinement<V::Scalar>,
+        form_factor: &mut impl FnMut(&Element<V>, &Element<V>) -> V::Scalar,
+    ) -> (Refined, V::Scalar) {
+        loop {
+            let field = self.field(shapes);
+            let errors = self.errors(&field);
+            let error = self.relative_error(shapes, &errors);
+            let marked = self.mark(&errors, settings);
+            if error <= settings.tolerance {
+                return (Refined::Tolerance, error);
+            }
+            if self.elements.len() >= settings.most_elements {
+                return (Refined::MostElements, error);
+            }
+            if marked.is_empty() {
+                return (Refined::SmallestArea, error);
+            }
+            self.cut(shapes, &field, &marked, form_factor);
+            self.solve(shapes, settings.solver_tolerance);
+        }
+    }
+
+    /// The integral over each element of the square of its error.
+    fn errors(&self, field: &Field<V, S>) -> Vec<V::Scalar> {
+        let of = |(i, element): (usize, &Element<V>)| field.variance(i, element) * element.area;
+        self.elements.iter().enumerate().map(of).collect()
+    }
+
+    /// The root mean square of the error as a share of that of the reflected radiosity.
+    fn relative_error(&self, shapes: &[Shape<V, S>], errors: &[V::Scalar]) -> V::Scalar {
+        let area: V::Scalar = self.elements.iter().map(|element| element.area).sum();
+        let error = errors.iter().copied().sum::<V::Scalar>();
+        let reflected = self.reflected(shapes);
+        if error > V::Scalar::ZERO { (error / area).sqrt() / reflected } else { V::Scalar::ZERO }
+    }
+
+    /// The fewest elements that hold the bulk of the error.
+    fn mark(&self, errors: &[V::Scalar], settings: &Refinement<V::Scalar>) -> Vec<usize> {
+        let smallest = settings.smallest_area * V::Scalar::from_f64(2.0);
+        let mut order: Vec<usize> = (0..errors.len()).filter(|&i| self.elements[i].area >= smallest).collect();
+        order.sort_by(|&i, &j| errors[j].partial_cmp(&errors[i]).unwrap_or(Ordering::Equal));
+        let bulk = order.iter().map(|&i| errors[i]).sum::<V::Scalar>() * V::Scalar::from_f64(BULK);
+        let mut held = V::Scalar::ZERO;
+        let enough = order.iter().position(|&i| {
+            let is_enough = held >= bulk;
+            held += errors[i];
+            is_enough
+        });
+        let room = settings.most_elements.saturating_sub(self.elements.len()).div_ceil(3);
+        order.truncate(enough.unwrap_or(order.len()).min(room));
+        order
+    }
+
+    /// Cuts these elements, and others so that neighbors stay alike; the pieces start with the value of the field.
+    fn cut(
+        &mut self,
+        shapes: &[Shape<V, S>],
+        field: &Field<V, S>,
+        marked: &[usize],
+        form_factor: &mut impl FnMut(&Element<V>, &Element<V>) -> V::Scalar,
+    ) {
+        let before = self.elements.clone();
+        let mut parents: Vec<usize> = (0..before.len()).collect();
+        marked.iter().for_each(|&i| split(shapes, &mut self.elements, i));
+        let restricted = restrict(shapes, &mut self.elements);
+        for &i in marked.iter().chain(&restricted) {
+            parents.extend([parents[i]; 3]);
+        }
+        let mut changed: Vec<usize> = marked.iter().chain(&restricted).copied().collect();
+        changed.sort_unstable();
+        changed.dedup();
+        changed.retain(|&i| i < before.len());
+        for i in changed.iter().copied().chain(before.len()..self.elements.len()) {
+            let (parent, center) = (parents[i], self.elements[i].center);
+            let start = field.value(parent, &before[parent], center);
+            if i < before.len() { self.radiosity[i] = start } else { self.radiosity.push(start) }
+        }
+        self.pairs += self.exchange.update(&self.elements, &changed, form_factor);
+    }
+}
