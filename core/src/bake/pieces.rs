@@ -66,9 +66,9 @@ impl<O: Occluders> Pieces<'_, O> {
         let of_texel = &self.patches.of_texel;
         let texel_area = |texel: usize| if of_texel[texel] == NONE { 0.0 } else { self.texels.list[texel].area };
         let details = self.details(is_light)?;
-        let around: Vec<Row> = self.workers.map(of_texel.len(), 4096, self.progress, |range| {
-            range.map(|texel| self.around(texel)).collect()
-        })?;
+        let around: Vec<Row> = self
+            .workers
+            .map(of_texel.len(), 4096, self.progress, |range| range.map(|texel| self.around(texel)).collect())?;
         let codes = |which: usize| {
             let numbers: Vec<f32> = details.iter().flat_map(|detail| detail[which].to_array()).collect();
             Codes::new(&numbers)
