@@ -143,7 +143,8 @@ fn layers_add_up() {
     let bake = baked(&scene, &keeping(8.0));
     let transport = transport_of(&bake);
     let mut relighter = Relighter::new(transport, 2);
-    let groups = [vec![Origin::Lamp(0), Origin::Sky], vec![Origin::Lamp(1)], vec![Origin::Material(1), Origin::Lamp(7)]];
+    let groups =
+        [vec![Origin::Lamp(0), Origin::Sky], vec![Origin::Lamp(1)], vec![Origin::Material(1), Origin::Lamp(7)]];
     let layers = Layers::new(&mut relighter, &transport.lighting, &groups, &Progress::default()).unwrap();
     let same = Relit { images: layers.mix(&[Vec3::ONE; 3]), ..Default::default() };
     assert!(difference(own_texels(&same, &bake), valid_texels(&bake)) < 5e-4);

@@ -66,9 +66,9 @@ impl<O: Occluders> Pieces<'_, O> {
         let of_texel = &self.patches.of_texel;
         let texel_area = |texel: usize| if of_texel[texel] == NONE { 0.0 } else { self.texels.list[texel].area };
         let details = self.details(is_light)?;
-        let around: Vec<Row> = self.workers.map(of_texel.len(), 4096, self.progress, |range| {
-            range.map(|texel| self.around(texel)).collect()
-        })?;
+        let around: Vec<Row> = self
+            .workers
+            .map(of_texel.len(), 4096, self.progress, |range| range.map(|texel| self.around(texel)).collect())?;
         let codes = |which: usize| {
             let numbers: Vec<f32> = details.iter().flat_map(|detail| detail[which].to_array()).collect();
             Codes::new(&numbers)
@@ -193,8 +193,7 @@ impl<O: Occluders> Pieces<'_, O> {
             }
             let shadow = light.shadow_ray(sequence.square(k), point, normal);
             if shadow.weight > 0.0 {
-                let end = if shadow.end == 1.0 { 1.0 - 1e-4 } else { shadow.end };
-                let ray = self.tracer.leave(triangle, point, normal, shadow.direction, end);
+                let ray = self.tracer.leave_for(triangle, point, normal, &shadow);
                 sum += irradiance * self.tracer.visibility(&ray);
                 self.tracer.count(1);
             }
