@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
-use radiosity::bake::{BakeSettings, Quality};
+use radiosity::bake::{BakeSettings, Keep, Quality};
 use radiosity::lightmap::{LayoutSettings, Resolution, UvMode};
 use sysinfo::System;
 
@@ -49,6 +49,10 @@ pub(super) struct Args {
     /// Factor on what emissive materials emit, in cd/m2 for each unit in the file
     #[arg(long, value_name = "X", value_parser = not_negative, default_value_t = 1.0)]
     pub emissive_scale: f32,
+
+    /// Write transport.bin too, by which lamps and colors can change later without a bake
+    #[arg(long)]
+    pub transport: bool,
 
     /// Exposure of preview.png; by default it is chosen by the lightmaps
     #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = finite)]
@@ -110,7 +114,7 @@ impl Args {
             threads: self.threads,
             memory_bytes: self.memory.unwrap_or_else(most_of_the_machine),
             seed: self.seed,
-            ..Default::default()
+            keep: if self.transport { Keep::Transport } else { Keep::Lightmaps },
         }
     }
 }

@@ -19,6 +19,9 @@ use super::{exr, preview, scene_file};
 use crate::baked::ktx2;
 use crate::baked::manifest::{self, FILE_NAME, LightEntry, Manifest, SurfaceKey};
 
+/// The file of the transport.
+const TRANSPORT: &str = "transport.bin";
+
 /// What is written, with all that is needed for it.
 pub(super) struct Written<'a> {
     pub args: &'a Args,
@@ -36,6 +39,9 @@ impl Written<'_> {
         for (image, entry) in self.bake.images.iter().zip(&manifest.images) {
             staging.write(&entry.file, &ktx2::encode(image))?;
             staging.write(&exr_name(&entry.file), &exr::encode(image)?)?;
+        }
+        if let Some(transport) = &self.bake.transport {
+            staging.write(TRANSPORT, &transport.write())?;
         }
         self.add_coordinates()?;
         staging.write("scene.glb", &self.document.to_glb())?;

@@ -35,10 +35,11 @@ impl<O: Occluders> Pieces<'_, O> {
 
     /// Rows of form factors: `rays` from each patch. The sky and the black see nothing.
     pub fn rows(&self, rays: u32, surfaces: &Surfaces) -> Result<Rows, Cancelled> {
-        let rows = self.workers.map(self.patches.list.len(), 32, self.progress, |range| {
+        let mut rows = self.workers.map(self.patches.list.len(), 32, self.progress, |range| {
             range.map(|patch| self.row(patch, rays, surfaces)).collect()
         })?;
-        Ok(rows.into_iter().chain([Row::default(), Row::default()]).collect())
+        rows.extend([Row::default(), Row::default()]);
+        Ok(rows.into())
     }
 
     fn row(&self, index: usize, rays: u32, surfaces: &Surfaces) -> Row {
@@ -65,7 +66,7 @@ impl<O: Occluders> Pieces<'_, O> {
         let of_texel = &self.patches.of_texel;
         let texel_area = |texel: usize| if of_texel[texel] == NONE { 0.0 } else { self.texels.list[texel].area };
         let details = self.details(is_light)?;
-        let around = self
+        let around: Vec<Row> = self
             .workers
             .map(of_texel.len(), 4096, self.progress, |range| range.map(|texel| self.around(texel)).collect())?;
         let codes = |which: usize| {
@@ -81,7 +82,7 @@ impl<O: Occluders> Pieces<'_, O> {
             reflectance: codes(0),
             emission: codes(1),
             cells: [self.cells(4), self.cells(2)],
-            around: around.into_iter().collect(),
+            around: around.into(),
         })
     }
 

@@ -27,13 +27,12 @@ impl Blend {
     ) -> Result<Self, Cancelled> {
         let numbers = numbers(&nodes.gathered);
         let blending = Blending { gathered: &nodes.gathered, numbers: &numbers, texels, is_valid };
-        let rows =
+        let of_texels: Vec<Row> =
             workers.map(numbers.len(), 1024, progress, |range| range.map(|texel| blending.row(texel)).collect())?;
-        let of_texels = rows.into_iter().collect();
-        let is_node = nodes.gathered.iter().map(|node| node.rays > 0);
-        let of_nodes =
-            nodes.rows.into_iter().zip(is_node).filter(|(_, is_node)| *is_node).map(|(row, _)| row).collect();
-        Ok(Self { texels: of_texels, nodes: of_nodes })
+        let mut of_nodes = nodes.rows;
+        let mut numbers = numbers.iter();
+        of_nodes.retain(|_| numbers.next().is_some_and(|&number| number != NONE));
+        Ok(Self { texels: of_texels.into(), nodes: of_nodes.into() })
     }
 }
 

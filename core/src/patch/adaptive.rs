@@ -4,8 +4,9 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use super::topology::{restrict, split};
-use super::{Element, Field, Shape, Solution};
+use super::{Element, Enclosure, Field, Shape};
 use crate::math::{Real, Vector};
+use crate::solve::Stop;
 use crate::spectrum::Spectrum;
 
 /// How far to go.
@@ -18,8 +19,8 @@ pub struct Refinement<R> {
     pub smallest_area: R,
     /// No more is cut where there are as many elements; keeping neighbors alike may take a few more.
     pub most_elements: usize,
-    /// The tolerance of the solver, as a share of the largest radiosity; 1e-6 is usual.
-    pub solver_tolerance: R,
+    /// When the solver stops, each time.
+    pub stop: Stop<R>,
 }
 
 /// Why refinement ended.
@@ -34,9 +35,11 @@ pub enum Refined {
 }
 
 /// The share of the square of the error that is cut in one step: the bulk criterion of Doerfler 1996.
-const BULK: f64 = 0.6;
+const BULK: f64 = 0.5;
+/// What a cut leaves of the square of the error where the radiosity is smooth: half the side, a quarter of the error.
+const LEFT: f64 = 1.0 / 16.0;
 
-impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Solution<V, S> {
+impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Enclosure<V, S> {
     /// Cuts the elements on which the solution varies most, computes the form factors of the pieces and solves again,
     /// until the estimated error is within the tolerance. Gives the reason to end and the estimated error.
     ///
@@ -53,8 +56,9 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Solution<V, S> {
         loop {
             let field = self.field(shapes);
             let errors = self.errors(&field);
-            let error = self.relative_error(shapes, &errors);
-            let marked = self.mark(&errors, settings);
+            let scale = self.scale(shapes);
+            let error = (errors.iter().copied().sum::<V::Scalar>() / scale).sqrt();
+            let marked = self.mark(&errors, settings, settings.tolerance * settings.tolerance * scale);
             if error <= settings.tolerance {
                 return (Refined::Tolerance, error);
             }
@@ -65,34 +69,36 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Solution<V, S> {
                 return (Refined::SmallestArea, error);
             }
             self.cut(shapes, &field, &marked, form_factor);
-            self.solve(shapes, settings.solver_tolerance);
+            self.solve(shapes, &settings.stop);
         }
     }
 
     /// The integral over each element of the square of its error.
     fn errors(&self, field: &Field<V, S>) -> Vec<V::Scalar> {
-        let of = |(i, element): (usize, &Element<V>)| field.variance(i, element) * element.area;
+        let of = |(i, element): (usize, &Element<V>)| field.errors[i] * field.errors[i] * element.area;
         self.elements.iter().enumerate().map(of).collect()
     }
 
-    /// The root mean square of the error as a share of that of the reflected radiosity.
-    fn relative_error(&self, shapes: &[Shape<V, S>], errors: &[V::Scalar]) -> V::Scalar {
-        let area: V::Scalar = self.elements.iter().map(|element| element.area).sum();
-        let error = errors.iter().copied().sum::<V::Scalar>();
+    /// The square of the root mean square of the reflected radiosity, times all area; 1 where there is no light.
+    fn scale(&self, shapes: &[Shape<V, S>]) -> V::Scalar {
         let reflected = self.reflected(shapes);
-        if error > V::Scalar::ZERO { (error / area).sqrt() / reflected } else { V::Scalar::ZERO }
+        let area: V::Scalar = self.elements.iter().map(|element| element.area).sum();
+        if reflected > V::Scalar::ZERO { reflected * reflected * area } else { V::Scalar::ONE }
     }
 
-    /// The fewest elements that hold the bulk of the error.
-    fn mark(&self, errors: &[V::Scalar], settings: &Refinement<V::Scalar>) -> Vec<usize> {
+    /// The elements with the largest errors, as many as hold the bulk of the error or, if those are fewer, as many as
+    /// have to be cut to come down to `target`.
+    fn mark(&self, errors: &[V::Scalar], settings: &Refinement<V::Scalar>, target: V::Scalar) -> Vec<usize> {
         let smallest = settings.smallest_area * V::Scalar::from_f64(2.0);
         let mut order: Vec<usize> = (0..errors.len()).filter(|&i| self.elements[i].area >= smallest).collect();
         order.sort_by(|&i, &j| errors[j].partial_cmp(&errors[i]).unwrap_or(Ordering::Equal));
         let bulk = order.iter().map(|&i| errors[i]).sum::<V::Scalar>() * V::Scalar::from_f64(BULK);
+        let mut left = errors.iter().copied().sum::<V::Scalar>();
         let mut held = V::Scalar::ZERO;
         let enough = order.iter().position(|&i| {
-            let is_enough = held >= bulk;
+            let is_enough = held >= bulk || left <= target;
             held += errors[i];
+            left += errors[i] * V::Scalar::from_f64(LEFT - 1.0);
             is_enough
         });
         let room = settings.most_elements.saturating_sub(self.elements.len()).div_ceil(3);

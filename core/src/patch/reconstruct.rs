@@ -12,13 +12,18 @@ use crate::spectrum::Spectrum;
 /// Each element is drawn as a fan of triangles from its center to its ring, in which hanging vertices are vertices like
 /// all others (anchored triangulation), so the function has the same values on both sides of an edge.
 #[derive(Clone, Debug)]
-pub struct Field<V, S> {
+pub struct Field<V: Vector, S> {
     /// How the elements hang together.
     pub topology: Topology<V>,
     /// The value at each vertex.
     pub at_vertices: Vec<S>,
     /// The value at the center of each element.
     pub at_centers: Vec<S>,
+    /// An estimate of how far the function is off on each element, as a root mean square in the brightest band.
+    ///
+    /// Half of how far the elements around lie off the plane through element and gradient: the error of linear
+    /// interpolation where the function is smooth, and about as much as can be said where it jumps.
+    pub errors: Vec<V::Scalar>,
 }
 
 /// Weights of the differences to neighbors in a gradient: the neighbor and a vector.
@@ -35,12 +40,13 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Field<V, S> {
         let topology = Topology::new(shapes, elements);
         let (mut sums, mut areas) =
             (vec![S::default(); topology.vertices.len()], vec![V::Scalar::ZERO; topology.vertices.len()]);
+        let weights: Vec<Weights<V>> = (0..elements.len()).map(|i| gradient(&topology, elements, i)).collect();
+        let errors = (0..elements.len()).map(|i| error(&weights, elements, values, i)).collect();
         for (i, element) in elements.iter().enumerate() {
-            let weights = gradient(&topology, elements, i);
             let ring = topology.ring(i);
             let steps: Vec<S> = ring
                 .iter()
-                .map(|&vertex| change(&weights, values, i, topology.vertices[vertex] - element.center))
+                .map(|&vertex| change(&weights[i], values, i, topology.vertices[vertex] - element.center))
                 .collect();
             let limit = limiter(&topology, values, i, &steps);
             for (&vertex, &step) in ring.iter().zip(&steps) {
@@ -51,7 +57,7 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Field<V, S> {
         let mean =
             |(&sum, &area): (&S, &V::Scalar)| if area > V::Scalar::ZERO { sum * (V::Scalar::ONE / area) } else { sum };
         let at_vertices = sums.iter().zip(&areas).map(mean).collect();
-        Self { topology, at_vertices, at_centers: values.to_vec() }
+        Self { topology, at_vertices, at_centers: values.to_vec(), errors }
     }
 
     /// The triangles of element `i`: its center and two neighbors on its ring, by index of vertex.
@@ -72,20 +78,6 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Field<V, S> {
             Some(([a, b], [u, v, w])) => self.at_centers[i] * u + self.at_vertices[a] * v + self.at_vertices[b] * w,
             None => self.at_centers[i],
         }
-    }
-
-    /// The mean square of how far the function differs from the value of element `i` on it, in its brightest band.
-    pub fn variance(&self, i: usize, element: &Element<V>) -> V::Scalar {
-        let mut sum = V::Scalar::ZERO;
-        for [a, b] in self.fan(i) {
-            let [p, q] = [a, b].map(|vertex| self.topology.vertices[vertex] - element.center);
-            let [x, y] = [a, b].map(|vertex| self.at_vertices[vertex] - self.at_centers[i]);
-            // A linear function that is 0, x and y at the corners of a triangle has a mean square of
-            // (x^2 + y^2 + x y) / 6, which is (x^2 + y^2 + (x + y)^2) / 12.
-            let squares = [x, y, x + y].map(|change| change.max_abs() * change.max_abs());
-            sum += p.cross(q).length() * squares.into_iter().sum::<V::Scalar>();
-        }
-        if element.area > V::Scalar::ZERO { sum / (element.area * V::Scalar::from_f64(24.0)) } else { sum }
     }
 }
 
@@ -147,6 +139,28 @@ fn change<V: Vector, S: Spectrum<Scalar = V::Scalar>>(weights: &Weights<V>, valu
     let mut sum = S::default();
     weights.iter().for_each(|&(j, weight)| sum += (values[j] - values[i]) * weight.dot(step));
     sum
+}
+
+/// Half of the root mean square of how far the values of an element and its neighbors are from what their
+/// gradients say of each other.
+fn error<V: Vector, S: Spectrum<Scalar = V::Scalar>>(
+    weights: &[Weights<V>],
+    elements: &[Element<V>],
+    values: &[S],
+    i: usize,
+) -> V::Scalar {
+    let miss = |from: usize, to: usize| {
+        let slope = change(&weights[from], values, from, elements[to].center - elements[from].center);
+        (values[to] - values[from] - slope).max_abs()
+    };
+    let squares = weights[i].iter().map(|&(j, _)| {
+        // An element at the outline meets its neighbors exactly, but theirs do not meet it.
+        let miss = miss(i, j).max(miss(j, i));
+        miss * miss
+    });
+    let sum: V::Scalar = squares.sum();
+    let count = V::Scalar::from_usize(weights[i].len().max(1));
+    (sum / count).sqrt() * V::Scalar::from_f64(0.5)
 }
 
 /// The factor that keeps steps within the largest difference to a neighbor.
@@ -279,19 +293,33 @@ mod tests {
         }
     }
 
-    /// A value alone gives a constant; the variance of a slope `s` on a square of side `h` is `s^2 h^2 / 12`.
+    /// The mean square over the square `[-1, 1]^2` of what is between `x^2` and its interpolation on a grid of side `h`
+    /// is `h^4 / 120`, when the values at the vertices are those of `x^2`; the function here lies at most `h^2 / 6` off.
     #[test]
-    fn variance_of_a_slope() {
-        let patches = [Patch::Quad([DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y])];
+    fn the_error_of_a_parabola_is_found() {
+        let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        let patches = [Patch::Quad([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)])];
         let shapes = shape(&patches);
-        let elements: Vec<_> = uniform(0, &patches, [4, 4]).collect();
-        let values: Vec<f64> = elements.iter().map(|element| 6.0 * element.center.x).collect();
-        let field = Field::new(&shapes, &elements, &values);
-        for (i, element) in elements.iter().enumerate() {
-            assert!((field.variance(i, element) - 36.0 / 16.0 / 12.0).abs() < 1e-12);
+        for n in [8, 16] {
+            let h = 2.0 / n as f64;
+            let elements: Vec<_> = uniform(0, &patches, [n, n]).collect();
+            let values: Vec<f64> = elements.iter().map(|e| e.center.x * e.center.x + h * h / 12.0).collect();
+            let field = Field::new(&shapes, &elements, &values);
+            let off = |i: usize| {
+                let differences = (0..100).map(|k| {
+                    let (s, t) = ((k % 10) as f64 / 10.0 + 0.05, (k / 10) as f64 / 10.0 + 0.05);
+                    let point = elements[i].center + corner(s - 0.5, t - 0.5) * h;
+                    (field.value(i, &elements[i], point) - point.x * point.x).powi(2)
+                });
+                (differences.sum::<f64>() / 100.0).sqrt()
+            };
+            for i in 0..elements.len() {
+                let ratio = field.errors[i] / off(i);
+                assert!(ratio > 1.0 && ratio < 8.0, "{ratio}");
+            }
         }
         let one: Vec<_> = uniform(0, &patches, [1, 1]).collect();
         let field = Field::new(&shapes, &one, &[2.0]);
-        assert_eq!((field.variance(0, &one[0]), field.value(0, &one[0], DVec3::X * 0.2)), (0.0, 2.0));
+        assert_eq!((field.errors[0], field.value(0, &one[0], corner(0.2, -0.3))), (0.0, 2.0));
     }
 }

@@ -24,15 +24,14 @@ impl Fills {
     /// Fills an image.
     pub fn apply(&self, image: &mut [Vec3]) {
         let steps = NEIGHBORS.map(|[x, y]| (x + y * self.width as i32) as isize);
-        let mut start = 0;
-        for &end in &self.rings {
-            // Neighbors within a ring are not taken from, so that the order in it does not matter.
-            for index in start as usize..end as usize {
-                let (at, from) = (self.texels[index] as usize, self.from[index]);
-                let sources = (0..8).filter(|k| from >> k & 1 == 1).map(|k| image[at.wrapping_add_signed(steps[k])]);
-                image[at] = sources.sum::<Vec3>() / from.count_ones().max(1) as f32;
+        // In the order of the rings; neighbors within a ring are not taken from.
+        for (&at, &from) in self.texels.iter().zip(&self.from) {
+            let (at, mut sum, mut rest) = (at as usize, Vec3::ZERO, from);
+            while rest != 0 {
+                sum += image[at.wrapping_add_signed(steps[rest.trailing_zeros() as usize])];
+                rest &= rest - 1;
             }
-            start = end;
+            image[at] = sum / from.count_ones().max(1) as f32;
         }
     }
 

@@ -29,13 +29,15 @@ pub struct MaterialColors {
     pub emissive: Vec3,
 }
 
-/// Who emits a part of the direct light.
+/// A source of light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// A light of the scene.
     Lamp(u32),
     /// A material of the scene that emits.
     Material(u32),
+    /// The surroundings.
+    Sky,
 }
 
 /// Light that a transport cannot carry. Its text names the culprit.
@@ -65,7 +67,20 @@ impl From<&Scene> for Lighting {
 }
 
 impl Lighting {
-    /// The same colors in the dark: what a group of lights is built up from.
+    /// The same colors, lit by a group of these lights alone. What does not exist is left out.
+    pub fn only(&self, group: &[Origin]) -> Self {
+        let mut lighting = self.dark();
+        for &origin in group {
+            match origin {
+                Origin::Lamp(lamp) => copy(lamp, &self.lamps, &mut lighting.lamps),
+                Origin::Material(material) => copy(material, &self.materials, &mut lighting.materials),
+                Origin::Sky => lighting.sky = self.sky,
+            }
+        }
+        lighting
+    }
+
+    /// The same colors in the dark.
     pub fn dark(&self) -> Self {
         let dark = |material: &MaterialColors| MaterialColors { emissive: Vec3::ZERO, ..*material };
         Self {
@@ -75,11 +90,12 @@ impl Lighting {
         }
     }
 
-    /// The strength of what emits a part of the direct light.
+    /// The strength of a source.
     pub fn strength(&self, origin: Origin) -> Vec3 {
         match origin {
             Origin::Lamp(lamp) => self.lamps[lamp as usize],
             Origin::Material(material) => self.materials[material as usize].emissive,
+            Origin::Sky => self.sky,
         }
     }
 
@@ -107,5 +123,11 @@ impl Lighting {
             None if is_wrong(&self.sky) => wrong(String::from("the sky")),
             None => Ok(()),
         }
+    }
+}
+
+fn copy<T: Copy>(index: u32, from: &[T], to: &mut [T]) {
+    if let (Some(from), Some(to)) = (from.get(index as usize), to.get_mut(index as usize)) {
+        *to = *from;
     }
 }

@@ -14,7 +14,7 @@ use crate::progress::{Cancelled, Progress};
 pub struct Relighter<'a> {
     transport: &'a Transport,
     workers: Workers,
-    start: Vec<Vec3A>,
+    solution: Solution,
 }
 
 /// Lightmaps for a lighting.
@@ -22,11 +22,11 @@ pub struct Relighter<'a> {
 pub struct Relit {
     /// For each image of the bake its texels, row by row: irradiance / pi in cd/m2 per linear RGB channel.
     pub images: Vec<Vec<Vec3>>,
-    /// How long it took, and whether light was lost.
+    /// How long it took.
     pub report: RelightReport,
 }
 
-/// How long it took to relight, by the clock of the progress, and whether light was lost.
+/// How long it took to relight, by the clock of the progress.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RelightReport {
     /// Seconds for the direct light.
@@ -41,8 +41,6 @@ pub struct RelightReport {
     pub finish: f64,
     /// Bounces that were needed from the start.
     pub sweeps: usize,
-    /// (Emitted - absorbed - escaped) / emitted power: 0 when no light is lost or made.
-    pub energy_balance: f32,
 }
 
 impl RelightReport {
@@ -87,12 +85,22 @@ impl From<Cancelled> for RelightError {
 impl<'a> Relighter<'a> {
     /// `threads` work on it; 0: one for each core. The result does not depend on it.
     pub fn new(transport: &'a Transport, threads: usize) -> Self {
-        Self { transport, workers: Workers::new(threads), start: Vec::new() }
+        Self { transport, workers: Workers::new(threads), solution: Solution::default() }
+    }
+
+    /// The transport that it works on.
+    pub fn transport(&self) -> &'a Transport {
+        self.transport
     }
 
     /// Forgets the last solution, so that the next starts in the dark.
     pub fn forget(&mut self) {
-        self.start.clear();
+        self.solution = Solution::default();
+    }
+
+    /// (Emitted - absorbed - escaped) / emitted power of the last lighting: 0 when no light is lost or made.
+    pub fn energy_balance(&self) -> f32 {
+        self.solution.energy_balance(&self.transport.surfaces, &self.transport.patches)
     }
 
     /// The lightmaps for a lighting.
@@ -110,7 +118,7 @@ impl<'a> Relighter<'a> {
         let direct = transport.direct(lighting, workers, progress)?;
         report.direct = clock.lap();
 
-        let start = self.start.clone();
+        let start = self.solution.radiance.clone();
         let (surfaces, rows) = (&transport.surfaces, &transport.patches);
         let solution = Solution::new(surfaces, rows, lighting, &direct, start, workers, progress)?;
         report.sweeps = solution.sweeps;
@@ -123,9 +131,8 @@ impl<'a> Relighter<'a> {
         report.gather = clock.lap();
 
         let images = transport.images(&direct, &nodes, workers, progress)?;
-        report.energy_balance = solution.energy_balance(surfaces, rows);
         report.finish = clock.lap();
-        self.start = solution.radiance;
+        self.solution = solution;
         Ok(Relit { images, report })
     }
 }

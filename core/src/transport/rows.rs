@@ -1,10 +1,10 @@
 //! Shares as counts: sparse rows of four bytes an entry, each exact in its sum.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use glam::Vec3A;
-
 use crate::solve::FormFactors;
+use crate::spectrum::Spectrum;
 
 /// The bits of an entry that count; the others are the distance from the column before.
 const COUNT_BITS: u32 = 8;
@@ -27,7 +27,7 @@ pub struct Rows {
 /// One row of [`Rows`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Row {
-    entries: Vec<u32>,
+    entries: Box<[u32]>,
     total: u32,
 }
 
@@ -58,31 +58,34 @@ impl Row {
 
     /// A row of columns, in their order, and counts.
     fn new(counts: impl Iterator<Item = (u32, u32)>) -> Self {
-        let (mut row, mut last) = (Self::default(), 0);
+        let (mut entries, mut total, mut last) = (Vec::new(), 0, 0);
         for (column, count) in counts {
-            row.push(column - last, count);
-            last = column;
+            push(column - last, count, &mut entries);
+            (total, last) = (total + count, column);
         }
-        row
-    }
-
-    fn push(&mut self, mut distance: u32, mut count: u32) {
-        self.total += count;
-        while distance > MOST_DISTANCE {
-            self.entries.push(MOST_DISTANCE << COUNT_BITS);
-            distance -= MOST_DISTANCE;
-        }
-        while count > MOST_COUNT {
-            self.entries.push(distance << COUNT_BITS | MOST_COUNT);
-            (distance, count) = (0, count - MOST_COUNT);
-        }
-        self.entries.push(distance << COUNT_BITS | count);
+        Self { entries: entries.into(), total }
     }
 }
 
-impl FromIterator<Row> for Rows {
-    fn from_iter<I: IntoIterator<Item = Row>>(rows: I) -> Self {
-        let mut all = Self::default();
+fn push(mut distance: u32, mut count: u32, entries: &mut Vec<u32>) {
+    while distance > MOST_DISTANCE {
+        entries.push(MOST_DISTANCE << COUNT_BITS);
+        distance -= MOST_DISTANCE;
+    }
+    while count > MOST_COUNT {
+        entries.push(distance << COUNT_BITS | MOST_COUNT);
+        (distance, count) = (0, count - MOST_COUNT);
+    }
+    entries.push(distance << COUNT_BITS | count);
+}
+
+impl From<Vec<Row>> for Rows {
+    fn from(rows: Vec<Row>) -> Self {
+        let mut all = Self {
+            ends: Vec::with_capacity(rows.len()),
+            entries: Vec::with_capacity(rows.iter().map(|row| row.entries.len()).sum()),
+            totals: Vec::with_capacity(rows.len()),
+        };
         for Row { entries, total } in rows {
             all.entries.extend(entries);
             all.ends.push(all.entries.len() as u64);
@@ -115,12 +118,24 @@ impl Rows {
 
     /// The mean of `values` by the shares of row `i`; zero where it is empty.
     #[inline]
-    pub fn mean(&self, i: usize, values: &[Vec3A]) -> Vec3A {
-        let mut sum = Vec3A::ZERO;
-        for (column, count) in decode(self.row_entries(i)) {
-            sum += values[column as usize] * count as f32;
+    pub fn mean<S: Spectrum<Scalar = f32>>(&self, i: usize, values: &[S]) -> S {
+        // Four sums at a time: an addition need not wait for the one before it.
+        let mut sums = [S::default(); 4];
+        let (fours, rest) = self.row_entries(i).as_chunks::<4>();
+        let mut column = 0_u32;
+        for four in fours {
+            let counts = four.map(|entry| (entry & MOST_COUNT) as f32);
+            for k in 0..4 {
+                column = column.wrapping_add(four[k] >> COUNT_BITS);
+                sums[k] += values[column as usize] * counts[k];
+            }
         }
-        sum / self.totals[i].max(1) as f32
+        for &entry in rest {
+            column = column.wrapping_add(entry >> COUNT_BITS);
+            sums[0] += values[column as usize] * (entry & MOST_COUNT) as f32;
+        }
+        let [a, b, c, d] = sums;
+        ((a + b) + (c + d)) * (1.0 / self.totals[i].max(1) as f32)
     }
 
     /// The share of column `j` in row `i`.
@@ -171,16 +186,21 @@ impl FormFactors for Rows {
         let share = 1.0 / self.totals[i].max(1) as f32;
         decode(self.row_entries(i)).for_each(|(column, count)| entry(column as usize, count as f32 * share));
     }
+
+    fn receive<S: Spectrum<Scalar = f32>>(&self, i: usize, radiosity: &[S]) -> S {
+        self.mean(i, radiosity)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use alloc::vec;
+    use glam::Vec3A;
 
     #[test]
     fn rows_are_counts() {
-        let rows: Rows = [Row::count(&mut [3, 4, 1, 3, 5, 3]), Row::count(&mut [])].into_iter().collect();
+        let rows = Rows::from(vec![Row::count(&mut [3, 4, 1, 3, 5, 3]), Row::count(&mut [])]);
         assert_eq!((rows.share(0, 3), rows.share(0, 0), rows.share(1, 0)), (0.5, 0.0, 0.0));
         let values = [0.0, 2.0, 0.0, 4.0, 0.0, 6.0].map(Vec3A::splat);
         assert!((rows.mean(0, &values).x - (2.0 + 3.0 * 4.0 + 6.0) / 6.0).abs() < 1e-6);
@@ -198,14 +218,14 @@ mod tests {
         columns.push(2);
         let row = Row::count(&mut columns);
         assert_eq!(row.entries.len(), 1 + 3 + 4);
-        let rows: Rows = [row.merge(&Row::count(&mut [2, 2]))].into_iter().collect();
+        let rows = Rows::from(vec![row.merge(&Row::count(&mut [2, 2]))]);
         assert_eq!((rows.share(0, 2), rows.share(0, far)), (3.0 / 1003.0, 1000.0 / 1003.0));
         assert_eq!(rows.closure_error(), 0.0);
     }
 
     #[test]
     fn weights_are_shares_to_a_part_of_the_largest() {
-        let rows: Rows = [Row::weigh(&mut [(7, 0.3), (2, 0.5), (7, 0.1), (9, 0.0001), (4, 0.1)])].into_iter().collect();
+        let rows = Rows::from(vec![Row::weigh(&mut [(7, 0.3), (2, 0.5), (7, 0.1), (9, 0.0001), (4, 0.1)])]);
         for (column, share) in [(2, 0.5), (7, 0.4), (9, 0.0), (4, 0.1)] {
             assert!((rows.share(0, column) - share).abs() < 0.002);
         }
