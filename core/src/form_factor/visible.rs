@@ -33,7 +33,7 @@ const KINK: f64 = 0.004;
 /// lines on which the view changes its form, and these are bisected until two rules agree. After 65536 triangles the
 /// rest is left as it is, and the error says so. Time grows with the square of the number of blockers that stand between
 /// the same parts of `a` and `b`; [`polygon_to_polygon_among`](super::polygon_to_polygon_among) takes rays where they are
-/// many. About 20 kB of stack, and 2 kB more for each blocker that hides another one.
+/// many. Measured in `f64`: 40 kB of stack, and 6 kB more for each further blocker in one line of sight.
 pub fn visible_polygon_to_polygon<V: Vector>(
     a: &[V],
     b: &[V],
