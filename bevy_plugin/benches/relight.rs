@@ -12,8 +12,8 @@ use std::time::Instant;
 use bevy::math::Vec3;
 use bevy_radiosity::cli::read_scene;
 use radiosity::bake::{Bake, BakeSettings, Keep, bake};
-use radiosity::lightmap::{LayoutSettings, Resolution, TexelState};
 use radiosity::light::Light;
+use radiosity::lightmap::{LayoutSettings, Resolution, TexelState};
 use radiosity::progress::Progress;
 use radiosity::scene::{Scene, cornell_box};
 use radiosity::transport::{Lighting, RelightReport, Relighter, Relit, Transport};
@@ -91,7 +91,11 @@ fn print_times(transport: &Transport, bake: f64) {
     let stream = stream_bandwidth();
     for (name, report) in ["from the dark", "one lamp changed"].into_iter().zip(best) {
         let (seconds, gather) = (report.seconds(), report.gather);
-        println!("relight {name}: {:.1} ms, {:.0} times faster than the bake; {report:.4?}", 1e3 * seconds, bake / seconds);
+        println!(
+            "relight {name}: {:.1} ms, {:.0} times faster than the bake; {report:.4?}",
+            1e3 * seconds,
+            bake / seconds
+        );
         let rows = transport.nodes.bytes() as f64 / gather;
         let with_loads = rows + 16.0 * transport.nodes.entries() as f64 / gather;
         println!(

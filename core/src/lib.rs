@@ -35,7 +35,7 @@
 //! | [`solve`] | the radiosity equation `b = e + rho F b` |
 //! | [`patch`] | surfaces in pieces: uniform, by proximity, adaptive; the classical method from end to end |
 //! | `scene` | surfaces, materials and lights; the measured Cornell box |
-//! | `transport` | rows of form factors from rays |
+//! | `transport` | what rays count, and lightmaps for other light from it |
 //! | `lightmap` | charts, atlases, texels, patches of them: direct light, gathered light, repairs |
 //! | `bake` | the whole pipeline, its settings and its report |
 //! | `render` | a baked scene as a camera sees it |

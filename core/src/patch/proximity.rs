@@ -66,20 +66,11 @@ mod listed {
         let limit = settings.largest_exchange * emitted;
         let mut is_new = vec![true; elements.len()];
         while elements.len() < settings.most_elements {
-            let mut marked = vec![false; elements.len()];
-            for i in 0..elements.len() {
-                for j in (0..i).filter(|&j| is_new[i] || is_new[j]) {
-                    let (a, b) = (&elements[i], &elements[j]);
-                    let bright = brightness[a.shape].max(brightness[b.shape]);
-                    let larger = if a.area >= b.area { i } else { j };
-                    let may_cut = elements[larger].area >= settings.smallest_area * V::Scalar::from_f64(2.0);
-                    if may_cut && !marked[larger] && expected_exchange(a, b) * bright > limit {
-                        marked[larger] = true;
-                    }
-                }
-            }
-            let room = (settings.most_elements - elements.len()) / 3;
-            let cut: Vec<usize> = (0..elements.len()).filter(|&i| marked[i]).take(room).collect();
+            let too_much = |a: &Element<V>, b: &Element<V>| {
+                expected_exchange(a, b) * brightness[a.shape].max(brightness[b.shape]) > limit
+            };
+            let room = (settings.most_elements - elements.len()).div_ceil(3);
+            let cut = larger_ones(elements, &is_new, settings.smallest_area, too_much, room);
             if cut.is_empty() {
                 break;
             }
@@ -91,6 +82,26 @@ mod listed {
             is_new.resize(elements.len(), true);
         }
         restrict(shapes, elements);
+    }
+
+    /// Of each pair that exchanges too much the larger element, if it may be cut; `room` of them at most. Pairs without
+    /// a new element were looked at before.
+    fn larger_ones<V: Vector>(
+        elements: &[Element<V>],
+        is_new: &[bool],
+        smallest_area: V::Scalar,
+        too_much: impl Fn(&Element<V>, &Element<V>) -> bool,
+        room: usize,
+    ) -> Vec<usize> {
+        let mut marked = vec![false; elements.len()];
+        for (i, a) in elements.iter().enumerate() {
+            for (j, b) in elements[..i].iter().enumerate().filter(|&(j, _)| is_new[i] || is_new[j]) {
+                let larger = if a.area >= b.area { i } else { j };
+                let may_cut = elements[larger].area >= smallest_area * V::Scalar::from_f64(2.0);
+                marked[larger] = marked[larger] || (may_cut && too_much(a, b));
+            }
+        }
+        (0..elements.len()).filter(|&i| marked[i]).take(room).collect()
     }
 
     /// The guessed largest radiosity of each shape, and the emitted power.

@@ -6,7 +6,7 @@ pub use cornell::*;
 
 use core::ops::{Add, AddAssign, Mul, Sub};
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec3A};
 
 use crate::math::Real;
 
@@ -74,6 +74,7 @@ macro_rules! rgb {
 }
 
 rgb!(Vec3, f32);
+rgb!(Vec3A, f32);
 rgb!(DVec3, f64);
 
 /// `N` wavelength bands.

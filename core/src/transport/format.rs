@@ -247,3 +247,43 @@ impl Stored for Origin {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bake::{BakeSettings, Keep, Quality, bake};
+    use crate::geometry::hash;
+    use crate::lightmap::{LayoutSettings, Resolution};
+    use crate::progress::Progress;
+    use crate::scene::cornell_box;
+    use crate::transport::Relighter;
+
+    /// Bytes that were forged, checksum and all, are refused or light something, and never more than that.
+    #[test]
+    fn forged_bytes_do_no_harm() {
+        let layout = LayoutSettings { resolution: Resolution::TexelsPerMeter(12.0), ..LayoutSettings::default() };
+        let settings = BakeSettings { layout, quality: Quality::Draft, keep: Keep::Transport, ..Default::default() };
+        let progress = Progress::with_clock(|| 0.0);
+        let bytes = bake(&cornell_box(), &settings, &progress).unwrap().transport.unwrap().write();
+        let (mut refused, mut lit) = (0, 0);
+        for round in 0..2000 {
+            let mut forged = bytes.clone();
+            let at = HEADER + hash(round, 0) as usize % (bytes.len() - HEADER);
+            forged[at] ^= 1 << (hash(round, 1) % 8);
+            let sum = checksum(&forged[HEADER..]);
+            forged[24..HEADER].copy_from_slice(&word(sum));
+            match Transport::read(&forged) {
+                Err(error) => {
+                    assert_eq!(error, TransportError::Corrupt);
+                    refused += 1;
+                }
+                Ok(transport) if round % 20 == 0 => {
+                    assert!(Relighter::new(&transport, 1).relight(&transport.lighting, &progress).is_ok());
+                    lit += 1;
+                }
+                Ok(_) => {}
+            }
+        }
+        assert!(refused > 100 && lit > 10, "{refused} {lit}");
+    }
+}

@@ -3,9 +3,8 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use glam::Vec3A;
-
 use crate::solve::FormFactors;
+use crate::spectrum::Spectrum;
 
 /// The bits of an entry that count; the others are the distance from the column before.
 const COUNT_BITS: u32 = 8;
@@ -119,9 +118,9 @@ impl Rows {
 
     /// The mean of `values` by the shares of row `i`; zero where it is empty.
     #[inline]
-    pub fn mean(&self, i: usize, values: &[Vec3A]) -> Vec3A {
+    pub fn mean<S: Spectrum<Scalar = f32>>(&self, i: usize, values: &[S]) -> S {
         // Four sums at a time: an addition need not wait for the one before it.
-        let mut sums = [Vec3A::ZERO; 4];
+        let mut sums = [S::default(); 4];
         let (fours, rest) = self.row_entries(i).as_chunks::<4>();
         let mut column = 0_u32;
         for four in fours {
@@ -136,7 +135,7 @@ impl Rows {
             sums[0] += values[column as usize] * (entry & MOST_COUNT) as f32;
         }
         let [a, b, c, d] = sums;
-        ((a + b) + (c + d)) / self.totals[i].max(1) as f32
+        ((a + b) + (c + d)) * (1.0 / self.totals[i].max(1) as f32)
     }
 
     /// The share of column `j` in row `i`.
@@ -187,12 +186,17 @@ impl FormFactors for Rows {
         let share = 1.0 / self.totals[i].max(1) as f32;
         decode(self.row_entries(i)).for_each(|(column, count)| entry(column as usize, count as f32 * share));
     }
+
+    fn receive<S: Spectrum<Scalar = f32>>(&self, i: usize, radiosity: &[S]) -> S {
+        self.mean(i, radiosity)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use alloc::vec;
+    use glam::Vec3A;
 
     #[test]
     fn rows_are_counts() {

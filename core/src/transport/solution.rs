@@ -2,15 +2,19 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use glam::Vec3A;
 
 use super::{Lighting, Rows, Surfaces};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
+use crate::solve::{Chebyshev, Decay, FormFactors, Solver, System};
+use crate::spectrum::Spectrum;
 
-/// The solution is this close, as a share of the brightest patch...
-const TOLERANCE: f32 = 1e-5;
+/// The solution is this close, as a share of the brightest patch. The noise of the rows is tens of times that; and with
+/// so large a reflectance single precision does not tell much smaller errors from none...
+const TOLERANCE: f32 = 1e-4;
 /// ...which reflectances up to 0.98 reach long before.
 const MOST_SWEEPS: usize = 1000;
 
@@ -35,9 +39,7 @@ pub struct Solution {
 impl Solution {
     /// Solves `b = e + rho (D + F b)` from any `start`, with `rows` of form factors and the direct light of the receivers.
     ///
-    /// The sky is a patch that emits and sees nothing; the black one is black. Chebyshev's iteration, as in
-    /// [`crate::solve::chebyshev`], with the rows of a sweep shared among workers: it needs no scalar products, and so
-    /// gives the same bits for any number of them.
+    /// The sky is a patch that emits and sees nothing; the black one is black.
     pub fn new(
         surfaces: &Surfaces,
         rows: &Rows,
@@ -49,34 +51,26 @@ impl Solution {
     ) -> Result<Self, Cancelled> {
         let direct = surfaces.direct_of_patches(direct);
         let (reflectance, emission) = (surfaces.reflectances(lighting), surfaces.emissions(lighting));
-        let received = vec![Vec3A::ZERO; direct.len()];
-        let mut solution = Self { radiance: start, received, direct, reflectance, emission, sweeps: 0 };
-        solution.radiance.resize(solution.direct.len(), Vec3A::ZERO);
-        solution.sweep_until_done(rows, workers, progress)?;
-        solution.received = receive(rows, &solution.radiance, workers, progress)?;
-        Ok(solution)
-    }
-
-    fn sweep_until_done(&mut self, rows: &Rows, workers: &Workers, progress: &Progress) -> Result<(), Cancelled> {
-        let rho = self.reflectance.iter().fold(0.0_f32, |rho, patch| rho.max(patch.max_element()));
-        let (mut before, mut omega) = (self.radiance.clone(), 1.0);
-        while self.sweeps < MOST_SWEEPS {
-            let received = receive(rows, &self.radiance, workers, progress)?;
-            let (mut residual, mut largest) = (0.0_f32, 0.0_f32);
-            for (i, received) in received.into_iter().enumerate() {
-                let jacobi = self.emission[i] + self.reflectance[i] * (self.direct[i] + received);
-                residual = residual.max((jacobi - self.radiance[i]).abs().max_element());
-                largest = largest.max(jacobi.max_element());
-                let next = before[i] + (jacobi - before[i]) * omega;
-                before[i] = core::mem::replace(&mut self.radiance[i], next);
-            }
-            self.sweeps += 1;
-            if residual <= TOLERANCE * largest * (1.0 - rho) {
-                break;
-            }
-            omega = 1.0 / (1.0 - rho * rho * omega / if self.sweeps == 1 { 2.0 } else { 4.0 });
+        let light = emission.iter().zip(&reflectance).zip(&direct);
+        let exitance: Vec<Vec3A> = light.map(|((emission, rho), direct)| emission + rho * direct).collect();
+        let rho = reflectance.iter().copied().fold(Vec3A::ZERO, Vec3A::max);
+        // Rows sum to one, the sky and the black included.
+        let decay = Decay { per_bounce: rho, amplification: Vec3A::ONE / (Vec3A::ONE - rho) };
+        let form_factors = &Threaded { rows, workers, progress };
+        let system = System { exitance: &exitance, reflectance: &reflectance, form_factors, decay };
+        let (mut radiance, mut scratch) = (start, vec![Vec3A::ZERO; 2 * direct.len()]);
+        radiance.resize(direct.len(), Vec3A::ZERO);
+        let (mut solver, mut sweeps, mut is_done) = (Chebyshev::new(&system, &mut scratch), 0, false);
+        while sweeps < MOST_SWEEPS && !is_done {
+            is_done = solver.step(&system, &mut radiance).is_within(TOLERANCE);
+            progress.check()?;
+            sweeps += 1;
         }
-        Ok(())
+        let mut received = scratch;
+        received.truncate(direct.len());
+        form_factors.receive_all(&radiance, &mut received);
+        progress.check()?;
+        Ok(Self { radiance, received, direct, reflectance, emission, sweeps })
     }
 
     /// (Emitted - absorbed - escaped) / emitted power, by what the rows say. Form factors from rays obey reciprocity
@@ -96,7 +90,25 @@ impl Solution {
     }
 }
 
-/// What all patches receive from each other: one product with the rows.
-fn receive(rows: &Rows, radiance: &[Vec3A], workers: &Workers, progress: &Progress) -> Result<Vec<Vec3A>, Cancelled> {
-    workers.map(rows.len(), 1024, progress, |range| range.map(|i| rows.mean(i, radiance)).collect())
+/// Rows shared among workers.
+struct Threaded<'a> {
+    rows: &'a Rows,
+    workers: &'a Workers,
+    progress: &'a Progress,
+}
+
+impl FormFactors for Threaded<'_> {
+    type Scalar = f32;
+
+    fn row(&self, i: usize, entry: impl FnMut(usize, f32)) {
+        self.rows.row(i, entry);
+    }
+
+    /// Where it is cancelled, nothing changes.
+    fn receive_all<S: Spectrum<Scalar = f32>>(&self, radiosity: &[S], received: &mut [S]) {
+        let task = |range: Range<usize>| range.map(|i| self.rows.mean(i, radiosity)).collect();
+        if let Ok(sums) = self.workers.map(self.rows.len(), 1024, self.progress, task) {
+            received.copy_from_slice(&sums);
+        }
+    }
 }
