@@ -54,9 +54,28 @@ pub(super) struct Args {
     #[arg(long)]
     pub transport: bool,
 
+    /// Make the lightmaps of a folder anew for other lamps and colors, by its transport.bin
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "out", "transport"])]
+    pub relight: Option<PathBuf>,
+
+    /// Factor on what a lamp, or a material that emits, gave in the bake: one for all channels or three; 0 is off
+    #[arg(long, value_name = "NAME=X|R,G,B", value_parser = named_color, requires = "relight")]
+    pub light: Vec<NamedColor>,
+
+    /// Base color of a material, linear
+    #[arg(long, value_name = "NAME=R,G,B", value_parser = named_color, requires = "relight")]
+    pub material: Vec<NamedColor>,
+
     /// Exposure of preview.png; by default it is chosen by the lightmaps
     #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = finite)]
     pub ev100: Option<f32>,
+}
+
+/// Something of the scene, and a color for it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct NamedColor {
+    pub name: String,
+    pub color: [f32; 3],
 }
 
 /// What becomes of the second set of coordinates of the meshes.
@@ -139,6 +158,17 @@ fn finite(text: &str) -> Result<f32, String> {
     text.parse().ok().filter(|number: &f32| number.is_finite()).ok_or_else(|| "it must be a number".into())
 }
 
+fn named_color(text: &str) -> Result<NamedColor, String> {
+    let (name, color) = text.rsplit_once('=').ok_or("it must be a name, = and one number or three with commas")?;
+    let numbers = color.split(',').map(not_negative).collect::<Result<Vec<f32>, String>>()?;
+    let color = match numbers[..] {
+        [all] => [all; 3],
+        [red, green, blue] => [red, green, blue],
+        _ => return Err("it must be one number or three with commas".into()),
+    };
+    Ok(NamedColor { name: name.into(), color })
+}
+
 fn image_side(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(side @ 16..=4096) if side % 4 == 0 => Ok(side),
@@ -182,6 +212,19 @@ mod tests {
         assert_eq!(bytes("4096"), Ok(4096));
         for wrong in ["", "G", "2X", "-1G", "0"] {
             assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn colors_have_names() {
+        let named = |text| named_color(text).map(|NamedColor { name, color }| (name, color));
+        assert_eq!(named("Lamp=2"), Ok(("Lamp".into(), [2.0; 3])));
+        assert_eq!(named("a=b=1,0.5,0"), Ok(("a=b".into(), [1.0, 0.5, 0.0])));
+        for wrong in ["Lamp", "Lamp=", "Lamp=1,2", "Lamp=-1", "Lamp=red"] {
+            assert!(named(wrong).is_err(), "{wrong}");
+        }
+        for wrong in [&["--light", "Lamp=1"][..], &["a.glb", "--relight", "baked"]] {
+            assert!(Args::try_parse_from([&["bake"], wrong].concat()).is_err(), "{wrong:?}");
         }
     }
 

@@ -15,6 +15,7 @@ mod output;
 mod preview;
 mod progress;
 mod prune;
+mod relight;
 mod report_file;
 mod scene_file;
 mod write;
@@ -91,7 +92,10 @@ fn report(error: &CliError) {
 /// See [`CliError`]. What lay in the folder before is as it was.
 pub fn try_run(args: impl IntoIterator<Item = OsString>, interrupted: &AtomicBool) -> Result<String, CliError> {
     let args = Args::try_parse_from(args).map_err(CliError::Usage)?;
-    bake_to_folder(&args, interrupted)
+    match &args.relight {
+        Some(folder) => relight::relight(folder, &args, interrupted),
+        None => bake_to_folder(&args, interrupted),
+    }
 }
 
 /// The scene of a glTF file, as the command line bakes it.

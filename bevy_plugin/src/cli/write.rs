@@ -20,7 +20,7 @@ use crate::baked::ktx2;
 use crate::baked::manifest::{self, FILE_NAME, LightEntry, Manifest, SurfaceKey};
 
 /// The file of the transport.
-const TRANSPORT: &str = "transport.bin";
+pub(super) const TRANSPORT: &str = "transport.bin";
 
 /// What is written, with all that is needed for it.
 pub(super) struct Written<'a> {
@@ -116,7 +116,7 @@ impl Written<'_> {
     }
 }
 
-fn exr_name(ktx2_name: &str) -> String {
+pub(super) fn exr_name(ktx2_name: &str) -> String {
     format!("{}.exr", ktx2_name.trim_end_matches(".ktx2"))
 }
 

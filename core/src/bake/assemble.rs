@@ -8,6 +8,7 @@ use glam::{Vec3, Vec3A};
 use crate::lightmap::{Blend, LightmapImage, NONE, Nodes, Patches, Smooth, TexelState, Texels, dilate};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
+use crate::scene::Scene;
 use crate::transport::{Fills, LampLight, Lighting, Rows, StoredImage, Surfaces, Transport};
 
 /// What finished images are made of.
@@ -55,11 +56,21 @@ impl Assembly<'_> {
         patches: Rows,
         nodes: Nodes,
         fills: Vec<Fills>,
-        lighting: Lighting,
+        scene: &Scene,
     ) -> Result<Transport, Cancelled> {
         let blend = Blend::new(nodes, self.texels, self.is_valid, self.workers, self.progress)?;
         let images = fills.into_iter().enumerate().map(|(index, fills)| self.stored(index, fills)).collect();
-        Ok(Transport { surfaces, lamps, patches, nodes: blend.nodes, texels: blend.texels, images, lighting })
+        Ok(Transport {
+            surfaces,
+            lamps,
+            patches,
+            nodes: blend.nodes,
+            texels: blend.texels,
+            images,
+            lighting: Lighting::from(scene),
+            lamp_names: scene.lights.iter().map(|light| light.name.clone()).collect(),
+            material_names: scene.materials.iter().map(|material| material.name.clone()).collect(),
+        })
     }
 
     fn stored(&self, index: usize, fills: Fills) -> StoredImage {

@@ -110,7 +110,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let report = done.report(&layout, &lighting, &direct, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, lighting)?),
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
     };
     let report = Report {
         images: images.len(),

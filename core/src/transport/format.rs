@@ -1,5 +1,6 @@
 //! A transport as bytes: everything is little-endian, lists have their length before them.
 
+use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -105,7 +106,7 @@ impl Transport {
 
     /// Whether all lists fit together, so that nothing that is named is missing.
     fn is_sound(&self) -> bool {
-        let Self { surfaces, lamps, patches, nodes, texels, images, lighting } = self;
+        let Self { surfaces, lamps, patches, nodes, texels, images, lighting, lamp_names, material_names } = self;
         let (receivers, all) = (surfaces.receivers(), surfaces.patch_of.len());
         let of_image = |image: &StoredImage| {
             let within = image.width.max(image.height) <= LARGEST_IMAGE;
@@ -113,7 +114,7 @@ impl Transport {
             let is_place = |&place: &u32| place < count || place == StoredImage::NOWHERE;
             within && image.places.iter().all(is_place) && image.fills.is_sound(image.width, image.height)
         };
-        lighting.check(lighting.lamps.len(), lighting.materials.len()).is_ok()
+        lighting.check(lamp_names.len(), material_names.len()).is_ok()
             && surfaces.is_sound(lighting.materials.len())
             && lamps.iter().all(|lamp| lamp.is_sound(receivers, lighting))
             && (patches.len() == surfaces.areas.len() + 2 && patches.is_sound(patches.len()))
@@ -203,7 +204,7 @@ macro_rules! fields {
 }
 
 fields! {
-    Transport { surfaces, lamps, patches, nodes, texels, images, lighting }
+    Transport { surfaces, lamps, patches, nodes, texels, images, lighting, lamp_names, material_names }
     Surfaces { areas, materials, bare, patch_of, texel_areas, reflectance, emission, cells, around }
     Cells { of_texel, count }
     Codes { largest, codes }
@@ -215,6 +216,17 @@ fields! {
     Lighting { lamps, materials, sky }
     MaterialColors { base_color, emissive }
     Vec3 { x, y, z }
+}
+
+impl Stored for String {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        (self.len() as u64).put(bytes);
+        bytes.extend(self.as_bytes());
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        Self::from_utf8(Vec::take(bytes)?).ok()
+    }
 }
 
 impl Stored for [Cells; 2] {

@@ -1,5 +1,6 @@
 //! How light travels through a baked scene, kept so that other lamps and colors need no ray.
 
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::{Fills, LampLight, Lighting, Rows, Surfaces};
@@ -25,6 +26,10 @@ pub struct Transport {
     pub images: Vec<StoredImage>,
     /// The lamps and colors of the bake.
     pub lighting: Lighting,
+    /// Of each lamp.
+    pub lamp_names: Vec<String>,
+    /// Of each material.
+    pub material_names: Vec<String>,
 }
 
 /// Where the texels of an image lie.
