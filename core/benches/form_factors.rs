@@ -94,6 +94,13 @@ fn duration(find: &dyn Fn() -> Estimate<f64>) -> Duration {
 }
 
 fn methods<V: Vector>() -> Vec<Method> {
+    let mut all = exact_methods::<V>();
+    all.extend(visible_methods::<V>());
+    all.extend(projections::<V>());
+    all
+}
+
+fn exact_methods<V: Vector>() -> Vec<Method> {
     let number = V::Scalar::from_f64;
     let none = Vec::new;
     vec![
@@ -116,6 +123,13 @@ fn methods<V: Vector>() -> Vec<Method> {
             "double integral of points, 1e-2",
             [none(), pairs::<V>(SHORT, move |a, b| double_integral_of_points(a, b, number(1e-2))), none()],
         ),
+    ]
+}
+
+fn visible_methods<V: Vector>() -> Vec<Method> {
+    let number = V::Scalar::from_f64;
+    let none = Vec::new;
+    vec![
         (
             "exact clipping, 1e-6",
             [
@@ -138,6 +152,12 @@ fn methods<V: Vector>() -> Vec<Method> {
                 }),
             ],
         ),
+    ]
+}
+
+fn projections<V: Vector>() -> Vec<Method> {
+    let none = Vec::new;
+    vec![
         (
             "Nusselt's projection, exact",
             [seen::<V>(FAR, |point, normal, polygon| exact(nusselt_area(point, normal, polygon))), none(), none()],

@@ -68,9 +68,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter(Stage::Unwrap);
     let workers = Workers::new(settings.threads);
     let layout = workers.run(|| layout(scene, &settings.layout, progress))?;
-    if layout.placements.iter().all(Option::is_none) {
-        return Err(BakeError::NothingToBake);
-    }
+    check::check_layout(&layout)?;
     let needed = memory::check(scene, &layout, &budget, settings)?;
 
     log.enter(Stage::Geometry);
@@ -105,13 +103,11 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter_after(Stage::Finish, tracer);
     let assembly = Assembly { texels, is_valid: &is_valid, patches, workers, progress };
     let (images, fills) = assembly.images(&direct, &indirect)?;
-    let done =
-        Done { world: &world, texels, is_valid: &is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
+    let is_valid = &is_valid;
+    let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
     let report = done.report(&layout, &lighting, &direct, &nodes, &indirect);
-    let transport = match settings.keep {
-        Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
-    };
+    let keep = || assembly.transport(surfaces, kept, rows, nodes, fills, scene);
+    let transport = (settings.keep == Keep::Transport).then(keep).transpose()?;
     let report = Report {
         images: images.len(),
         texels: images.iter().map(|image| image.texels.len()).sum(),
