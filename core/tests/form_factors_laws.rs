@@ -166,7 +166,8 @@ fn both_integrals_agree() {
     }
 }
 
-/// Light comes from fronts and gets to fronts: both sides of a polygon get something only where its plane cuts the sender.
+/// Light comes from fronts and gets to fronts: both sides of a polygon get something only where its plane cuts the
+/// sender.
 #[test]
 fn backs_get_nothing() {
     for (a, b) in pairs(50, 4.0) {

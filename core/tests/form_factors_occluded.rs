@@ -248,6 +248,28 @@ fn polygons_among_few_blockers() {
     assert!(partly > 10, "{partly} pairs are hidden in part");
 }
 
+/// What passes a slit is what a needle in its place stops: shadows narrower than the points of any rule.
+#[test]
+fn slits_and_needles() {
+    let (a, b, _) = geometry::<DVec3>(&PAIRS[0], f64::MAX);
+    let strip = |from: f64, to: f64, height: f64| {
+        [(from, -4.0), (to, -4.0), (to, 5.0), (from, 5.0)].map(|(x, y)| DVec3::new(x + 0.1 * y, y, height))
+    };
+    let whole = polygon_to_polygon(&a, &b);
+    for (width, height) in [(0.1, 0.5), (0.01, 0.9), (0.01, 0.2), (0.001, 0.5), (1e-5, 0.99)] {
+        let (from, to) = (0.37, 0.37 + width);
+        let (left, right, needle) = (strip(-5.0, from, height), strip(to, 6.0, height), strip(from, to, height));
+        for accuracy in [1e-3, 1e-5, 1e-7] {
+            let through = visible_polygon_to_polygon(&a, &b, &[&left, &right], accuracy);
+            let past = visible_polygon_to_polygon(&a, &b, &[&needle], accuracy);
+            let difference = (through.value + past.value - whole).abs();
+            let told = through.error + past.error + 1e-12;
+            assert!(difference <= told, "{width} at {height} to {accuracy:e}: {difference:e} {through:?} {past:?}");
+            assert!(told <= 4.0 * accuracy, "{width} at {height}: {told:e} for {accuracy:e}");
+        }
+    }
+}
+
 #[test]
 fn what_is_fully_hidden_gets_nothing() {
     let mut random = Random(400);

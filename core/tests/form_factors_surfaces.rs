@@ -1,110 +1,19 @@
 //! Form factors between surfaces against known values, by every method that applies, in double and in single precision.
 
+#[path = "reference/methods.rs"]
+#[expect(dead_code, reason = "points and strips have other tests")]
+mod methods;
+#[path = "reference/points.rs"]
+#[expect(dead_code, reason = "points have another test")]
+mod points;
 #[path = "reference/surfaces.rs"]
 mod surfaces;
 
 use glam::{DVec3, Vec3};
+use methods::{Corners, closed_form, surface_polygons};
 use radiosity::form_factor::*;
 use radiosity::math::{Real, Vector};
 use surfaces::{SURFACE_CASES, Surfaces};
-
-/// The closed form.
-fn closed<R: Real>(surfaces: &Surfaces) -> R {
-    let number = R::from_f64;
-    let bounds = |[x, y]: [[f64; 2]; 2]| Bounds { x: x.map(number), y: y.map(number) };
-    match *surfaces {
-        Surfaces::ParallelRectangles { width, height, distance } => {
-            parallel_rectangles(number(width), number(height), number(distance))
-        }
-        Surfaces::ParallelOffset { a, b, distance } => {
-            parallel_rectangles_offset(bounds(a), bounds(b), number(distance))
-        }
-        Surfaces::PerpendicularRectangles { length, width, height } => {
-            perpendicular_rectangles(number(length), number(width), number(height))
-        }
-        Surfaces::PerpendicularOffset { a, b } => perpendicular_rectangles_offset(bounds(a), bounds(b)),
-        Surfaces::TiltedSquares { degrees } => tilted_rectangles(R::ONE, R::ONE, R::ONE, number(degrees.to_radians())),
-        Surfaces::CoaxialDiscs { from, to, distance } => coaxial_discs(number(from), number(to), number(distance)),
-        Surfaces::SphereToDisc { radius, distance } => sphere_to_disc(number(radius), number(distance)),
-        Surfaces::SphereToRectangle { width, height, distance } => {
-            sphere_to_rectangle(number(width), number(height), number(distance))
-        }
-        Surfaces::SphereToCubeFace => number(4.0) * sphere_to_rectangle(number(0.5), number(0.5), number(0.5)),
-        Surfaces::CubeFaceToSphere { radius } => {
-            let back = number(4.0) * sphere_to_rectangle(number(0.5), number(0.5), number(0.5));
-            back * number(4.0 * std::f64::consts::PI * radius * radius)
-        }
-        Surfaces::OuterSphereToInner { inner, outer } => outer_sphere_to_inner(number(inner), number(outer)),
-        Surfaces::TwoSpheres { from, to, distance } => sphere_to_sphere(number(from), number(to), number(distance)),
-        Surfaces::CoaxialCylinders { inner, outer, height } => {
-            inner_cylinder_to_outer(number(inner), number(outer), number(height))
-        }
-        Surfaces::CylinderSideToItself { radius, height } => cylinder_side_to_itself(number(radius), number(height)),
-        Surfaces::CylinderBaseToSide { radius, height } => cylinder_base_to_side(number(radius), number(height)),
-        Surfaces::Hemisphere => inside_sphere(number(2.0) * R::PI, R::ONE),
-        Surfaces::ParallelStrips { width, distance } => parallel_strips(number(width), number(distance)),
-        Surfaces::StripsAtAnAngle { degrees } => strips_at_an_angle(R::ONE, R::ONE, number(degrees.to_radians())),
-        Surfaces::TriangularDuct { from, to, third } => {
-            let cos = (from * from + to * to - third * third) / (2.0 * from * to);
-            strips_at_an_angle(number(from), number(to), number(cos.acos()))
-        }
-        Surfaces::BoxRow { width, height, depth } => {
-            let two = number(2.0);
-            let (width, height, depth) = (number(width), number(height), number(depth));
-            parallel_rectangles(width, height, depth)
-                + two * perpendicular_rectangles(width, height, depth)
-                + two * perpendicular_rectangles(height, width, depth)
-        }
-        Surfaces::Tetrahedron => R::ONE / number(3.0),
-    }
-}
-
-type Corners = Vec<DVec3>;
-
-fn rectangle(corner: [f64; 3], u: [f64; 3], v: [f64; 3]) -> Corners {
-    let [corner, u, v] = [corner, u, v].map(DVec3::from_array);
-    vec![corner, corner + u, corner + u + v, corner + v]
-}
-
-/// The sender and all receivers, where they are polygons.
-fn polygons(surfaces: &Surfaces) -> Option<(Corners, Vec<Corners>)> {
-    let floor = |[x, y]: [[f64; 2]; 2]| rectangle([x[0], y[0], 0.0], [x[1] - x[0], 0.0, 0.0], [0.0, y[1] - y[0], 0.0]);
-    let roof =
-        |[x, y]: [[f64; 2]; 2], z: f64| rectangle([x[0], y[0], z], [0.0, y[1] - y[0], 0.0], [x[1] - x[0], 0.0, 0.0]);
-    let wall = |[z, y]: [[f64; 2]; 2]| rectangle([0.0, y[0], z[0]], [0.0, y[1] - y[0], 0.0], [0.0, 0.0, z[1] - z[0]]);
-    Some(match *surfaces {
-        Surfaces::ParallelRectangles { width, height, distance } => {
-            let bounds = [[0.0, width], [0.0, height]];
-            (floor(bounds), vec![roof(bounds, distance)])
-        }
-        Surfaces::ParallelOffset { a, b, distance } => (floor(a), vec![roof(b, distance)]),
-        Surfaces::PerpendicularRectangles { length, width, height } => {
-            (floor([[0.0, width], [0.0, length]]), vec![wall([[0.0, height], [0.0, length]])])
-        }
-        Surfaces::PerpendicularOffset { a, b } => (floor(a), vec![wall(b)]),
-        Surfaces::TiltedSquares { degrees } => {
-            let (sin, cos) = degrees.to_radians().sin_cos();
-            let square = [[0.0, 1.0], [0.0, 1.0]];
-            (floor(square), vec![rectangle([0.0; 3], [0.0, 1.0, 0.0], [cos, 0.0, sin])])
-        }
-        Surfaces::BoxRow { width: w, height: h, depth: d } => {
-            let walls = vec![
-                roof([[0.0, w], [0.0, h]], d),
-                rectangle([0.0; 3], [0.0, h, 0.0], [0.0, 0.0, d]),
-                rectangle([w, 0.0, 0.0], [0.0, 0.0, d], [0.0, h, 0.0]),
-                rectangle([0.0; 3], [0.0, 0.0, d], [w, 0.0, 0.0]),
-                rectangle([0.0, h, 0.0], [w, 0.0, 0.0], [0.0, 0.0, d]),
-            ];
-            (floor([[0.0, w], [0.0, h]]), walls)
-        }
-        Surfaces::Tetrahedron => {
-            let [a, b, c, d] =
-                [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].map(DVec3::from_array);
-            (vec![a, c, b], vec![vec![a, b, d]])
-        }
-        _ => return None,
-    })
-}
 
 fn single(corners: &Corners) -> Vec<Vec3> {
     corners.iter().map(|corner| corner.as_vec3()).collect()
@@ -113,9 +22,9 @@ fn single(corners: &Corners) -> Vec<Vec3> {
 #[test]
 fn known_values_of_closed_forms() {
     for case in SURFACE_CASES {
-        let factor: f64 = closed(&case.surfaces);
+        let factor: f64 = closed_form(&case.surfaces);
         assert!((factor - case.factor).abs() < 1e-9, "{}: {factor}, not {}", case.name, case.factor);
-        let factor: f32 = closed(&case.surfaces);
+        let factor: f32 = closed_form(&case.surfaces);
         assert!((f64::from(factor) - case.factor).abs() < 1e-5, "{}: {factor}, not {}", case.name, case.factor);
     }
     assert_eq!(SURFACE_CASES.len(), 50);
@@ -124,7 +33,7 @@ fn known_values_of_closed_forms() {
 #[test]
 fn known_values_of_contour_integrals() {
     for case in SURFACE_CASES {
-        let Some((a, others)) = polygons(&case.surfaces) else { continue };
+        let Some((a, others)) = surface_polygons(&case.surfaces) else { continue };
         let factor: f64 = others.iter().map(|b| polygon_to_polygon(&a, b)).sum();
         assert!((factor - case.factor).abs() < 1e-9, "{}: {factor}, not {}", case.name, case.factor);
         let factor: f32 = others.iter().map(|b| polygon_to_polygon(&single(&a), &single(b))).sum();
@@ -153,7 +62,7 @@ fn check_double_integral<V: Vector>(
 #[test]
 fn known_values_of_double_integrals() {
     for case in SURFACE_CASES {
-        let Some((a, others)) = polygons(&case.surfaces) else { continue };
+        let Some((a, others)) = surface_polygons(&case.surfaces) else { continue };
         let singles = (single(&a), others.iter().map(single).collect());
         check_double_integral(case.name, case.factor, (a.clone(), others.clone()), 1e-9, double_integral);
         check_double_integral(case.name, case.factor, (a.clone(), others.clone()), 1e-4, double_integral);

@@ -47,7 +47,7 @@ impl Picture {
         let (mut samples, mut depths) = (vec![(usize::MAX, Vec3::ZERO); count], vec![0.0; count]);
         let mut buffer = DepthBuffer::new(size, &mut depths)?;
         let eye = DVec3::new(0.0, 1.6, 3.9);
-        let clip = camera(eye.as_vec3(), Vec3::Y * 0.9);
+        let clip = camera(eye.as_vec3(), Vec3::Y * 0.92);
         for (i, element) in elements.iter().enumerate() {
             if element.normal.dot(eye - element.center) <= 0.0 {
                 continue;
@@ -93,5 +93,5 @@ impl Picture {
 /// From the world to clip space with reversed depth.
 fn camera(eye: Vec3, target: Vec3) -> Mat4 {
     let aspect = SIZE[0] as f32 / SIZE[1] as f32;
-    Mat4::perspective_infinite_reverse_rh(0.66, aspect, 0.1) * Mat4::look_at_rh(eye, target, Vec3::Y)
+    Mat4::perspective_infinite_reverse_rh(0.645, aspect, 0.1) * Mat4::look_at_rh(eye, target, Vec3::Y)
 }

@@ -14,7 +14,7 @@ const LIGHT: DVec3 = DVec3::new(17.0, 13.0, 9.0);
 /// The largest side of a patch in meters.
 const SIDE: f64 = 0.26;
 /// Pieces along each side of the cushion, where it is seen and where it blocks light.
-const CUSHION: [usize; 2] = [6, 4];
+const CUSHION: [usize; 2] = [8, 4];
 
 /// Control points of a bicubic cushion: its outline lies on the floor, the four points inside lie above.
 #[rustfmt::skip]

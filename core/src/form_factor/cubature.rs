@@ -51,9 +51,9 @@ impl<'a> Cubature<'a> {
         self.refine(triangle, value, DEPTH, f)
     }
 
-    /// The integral over a triangle whose plain sum is `value`: the sum over its quarters if it agrees with that and with
-    /// the sum over its halves, else the quarters refined. The error is a multiple of the larger difference, which is
-    /// about the error of the coarser sums.
+    /// The integral over a triangle whose plain sum is `value`: the sum over its quarters if it agrees with that and
+    /// with the sum over its halves, else the quarters refined. The error is a multiple of the larger difference, which
+    /// is about the error of the coarser sums.
     fn refine(
         &mut self,
         triangle: &[DVec3; 3],

@@ -27,10 +27,11 @@ fn diagonal<R: Real>(radius: R, height: R) -> R {
     (diameter * diameter + height * height).sqrt()
 }
 
-/// From the outside of a cylinder to the inside of a wider one around it of the same height; the rest leaves at the ends.
+/// From the outside of a cylinder to the inside of a wider one around it of the same height; the rest leaves at the
+/// ends.
 ///
-/// In `[0, 1]`, with an absolute error of a few roundings times the larger of 1 and the ratio of the height to the inner
-/// radius or its inverse. Computed in `f64`. Howell's catalogue C-91.
+/// In `[0, 1]`, with an absolute error of a few roundings times the larger of 1 and the ratio of the height to the
+/// inner radius or its inverse. Computed in `f64`. Howell's catalogue C-91.
 pub fn inner_cylinder_to_outer<R: Real>(inner: R, outer: R, height: R) -> R {
     let (r, h) = (outer.to_f64() / inner.to_f64(), height.to_f64() / inner.to_f64());
     let (a, b) = (h * h + (r - 1.0) * (r + 1.0), h * h - (r - 1.0) * (r + 1.0));

@@ -16,9 +16,9 @@ pub struct Disc<V: Vector> {
 /// Share of the power leaving `point` that lands on the front of a disc in any position, with nothing between.
 ///
 /// `normal` has length 1. What lies below the horizon of `point` does not count. In `[0, 1]`; 0 behind the disc and in
-/// its plane. The absolute error is about 5 roundings over the distance of the point from the rim in radii, where that is
-/// below 1.
-/// The contour integral `1/2pi int n . (r x dr) / r^2` of Lambert's formula over the arc above the horizon and its chord.
+/// its plane. The absolute error is about 5 roundings over the distance of the point from the rim in radii, where that
+/// is below 1. The contour integral `1/2pi int n . (r x dr) / r^2` of Lambert's formula over the arc above the horizon
+/// and its chord.
 pub fn point_to_disc<V: Vector>(point: V, normal: V, disc: &Disc<V>) -> V::Scalar {
     let zero = V::Scalar::ZERO;
     let to_center = disc.center - point;

@@ -81,10 +81,12 @@ impl Pair {
         match approach {
             None => self.parallel(e, f),
             _ if depth == 0 => e.length * GAUSS_16.mean(|s| self.over_edge(e.at(s * e.length), f)),
-            Some(_) if f.length > 8.0 * e.length => {
-                f.halves().iter().map(|half| self.integral(e, half, depth - 1)).sum()
+            Some(approach) if touch(e, f, approach) => {
+                if f.length > 8.0 * e.length {
+                    return f.halves().iter().map(|half| self.integral(e, half, depth - 1)).sum();
+                }
+                self.touching(e, f, approach)
             }
-            Some(approach) if touch(e, f, approach) => self.touching(e, f, approach),
             Some(_) => e.halves().iter().map(|half| self.integral(half, f, depth - 1)).sum(),
         }
     }
@@ -131,9 +133,8 @@ impl Pair {
     }
 
     /// Edges whose lines meet at a point of both.
-    fn touching(self, e: &Edge, f: &Edge, Approach { at: [s, t], .. }: Approach) -> f64 {
-        let cos = e.direction.dot(f.direction);
-        let wedge = Wedge { pair: self, cos, sin: Real::sqrt((1.0 - cos) * (1.0 + cos)) };
+    fn touching(self, e: &Edge, f: &Edge, Approach { at: [s, t], sin, .. }: Approach) -> f64 {
+        let wedge = Wedge { pair: self, cos: e.direction.dot(f.direction), sin };
         let mut sum = 0.0;
         if e.length > s {
             sum += wedge.rectangle([Real::max(-s, 0.0), e.length - s], [-t, f.length - t]);
@@ -194,8 +195,8 @@ fn touch(e: &Edge, f: &Edge, Approach { at: [s, t], distance, .. }: Approach) ->
 /// The Gauss rule for 11 digits of the integral over `e` of the closed form over `f`, if 16 points suffice.
 ///
 /// That function is singular at the ends of `f` and, seen as one of a complex variable, where the lines approach each
-/// other inside `f`. The error of `n` points falls with `(x + sqrt(x^2 - 1))^-2n`, where `x` is the sum of the distances
-/// of a singularity from both ends of `e`, over the length of `e`.
+/// other inside `f`. The error of `n` points falls with `(x + sqrt(x^2 - 1))^-2n`, where `x` is the sum of the
+/// distances of a singularity from both ends of `e`, over the length of `e`.
 fn rule(e: &Edge, f: &Edge, approach: Option<Approach>) -> Option<Gauss> {
     let end = e.end();
     let spread = |q: DVec3| length(e.start - q) + length(end - q);
@@ -267,5 +268,6 @@ mod tests {
         check([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[0.2, -0.5, 0.0], [0.6, 0.5, 0.0]], &[0.4]);
         check([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[0.0, 0.0, 0.0], [10.0, 30.0, 0.0]], &[]);
         check([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[0.0, 0.0, 0.0], [-1.0, 0.01, 0.0]], &[]);
+        check([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[0.0, 0.0, 0.0], [2.0, 1e-12, 0.0]], &[]);
     }
 }

@@ -8,8 +8,8 @@ use crate::math::{Real, Vector};
 ///
 /// `polygon` is planar, convex or not, and runs counter-clockwise seen from its front; `normal` has length 1. What lies
 /// below the horizon of `point` does not count. In `[0, 1]`; 0 behind the polygon, in its plane up to rounding (so on
-/// its edges and corners too) and for fewer than three corners or coordinates that are not finite. The absolute error is
-/// a few roundings over the distance of the point from the boundary in sizes of the polygon, where that is below 1.
+/// its edges and corners too) and for fewer than three corners or coordinates that are not finite. The absolute error
+/// is a few roundings over the distance of the point from the boundary in sizes of the polygon, where that is below 1.
 /// Lambert's formula `F = 1/2pi sum theta_i (n . G_i)`, as in Baum, Rushmeier and Winget 1989; it is the projection of
 /// the spherical polygon onto the disc below it, which Nusselt drew.
 pub fn point_to_polygon<V: Vector>(point: V, normal: V, polygon: &[V]) -> V::Scalar {

@@ -62,8 +62,8 @@ pub fn inside_sphere<R: Real>(area: R, radius: R) -> R {
     area / (R::from_f64(4.0) * R::PI * radius * radius)
 }
 
-/// From the outer of two concentric spheres to the inner one, `(inner / outer)^2`; what is left of 1 goes to itself, and
-/// all that leaves the inner one goes to the outer one. In `[0, 1]` for `inner <= outer`, to a rounding.
+/// From the outer of two concentric spheres to the inner one, `(inner / outer)^2`; what is left of 1 goes to itself,
+/// and all that leaves the inner one goes to the outer one. In `[0, 1]` for `inner <= outer`, to a rounding.
 pub fn outer_sphere_to_inner<R: Real>(inner: R, outer: R) -> R {
     let ratio = inner / outer;
     ratio * ratio
@@ -85,8 +85,8 @@ pub fn sphere_to_sphere<R: Real>(from: R, to: R, distance: R) -> R {
     R::from_f64(larger_to_smaller(large, small, distance) * (large / small * ratio) * (large / small * ratio))
 }
 
-/// The mean over the sphere of radius `r` of the factor to one of radius `s`, where `mu` is the cosine of the polar angle
-/// toward it and `d` the distance of a point from the other center.
+/// The mean over the sphere of radius `r` of the factor to one of radius `s`, where `mu` is the cosine of the polar
+/// angle toward it and `d` the distance of a point from the other center.
 fn larger_to_smaller(r: f64, s: f64, distance: f64) -> f64 {
     let squared = |mu: f64| distance * distance + r * r - 2.0 * distance * r * mu;
     let cut = tanh_sinh((r - s) / distance, (r + s) / distance, |mu| {

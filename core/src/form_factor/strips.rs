@@ -1,7 +1,7 @@
 //! Strips without end, seen along their length: lines in a plane.
 //!
-//! A strip runs from its first point to its second one with its front on the left; what lies behind it neither sends nor
-//! receives.
+//! A strip runs from its first point to its second one with its front on the left; what lies behind it neither sends
+//! nor receives.
 
 use crate::math::Real;
 
@@ -11,8 +11,8 @@ pub type Planar<R> = [R; 2];
 /// Share of the power leaving `point` that lands on the front of a strip, with nothing between:
 /// `(sin b_2 - sin b_1) / 2` for the angles of its ends with the normal.
 ///
-/// `normal` has length 1. What lies below the horizon of `point` does not count. In `[0, 1]`, to a few roundings; 0 behind
-/// the strip and on its line. Hottel 1954.
+/// `normal` has length 1. What lies below the horizon of `point` does not count. In `[0, 1]`, to a few roundings; 0
+/// behind the strip and on its line. Hottel 1954.
 pub fn point_to_strip<R: Real>(point: Planar<R>, normal: Planar<R>, strip: [Planar<R>; 2]) -> R {
     let is_in_front = side(strip, point) > R::ZERO;
     if !is_in_front {
@@ -53,8 +53,8 @@ pub fn parallel_strips<R: Real>(width: R, distance: R) -> R {
 }
 
 /// From a strip of width `a` to one of width `b` that shares an edge with it, with the included `angle` in `[0, pi]`:
-/// `(a + b - c) / 2a` for the third side `c` of the triangle. In `[0, 1]`, to a few roundings. Howell's catalogue C-5 and
-/// C-6.
+/// `(a + b - c) / 2a` for the third side `c` of the triangle. In `[0, 1]`, to a few roundings. Howell's catalogue C-5
+/// and C-6.
 pub fn strips_at_an_angle<R: Real>(a: R, b: R, angle: R) -> R {
     let half = angle / R::from_f64(2.0);
     // c^2 is (a - b)^2 plus 4 a b sin^2 of half the angle, and a + b - c is 4 a b cos^2 over a + b + c.

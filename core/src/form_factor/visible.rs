@@ -30,8 +30,10 @@ const KINK: f64 = 0.004;
 /// `[0, 1]`; 0 where a polygon has no area. `F_ab = 1/A_a int F_p->b dA` over the points `p` of `a`, with the exact
 /// factor of [`visible_point_to_polygon`](super::visible_point_to_polygon) inside; or the same with `a` and `b`
 /// exchanged, whichever changes less from point to point. The outer polygon is cut into triangles along the critical
-/// lines on which the view changes its form, and these are bisected until two rules agree. Where the work would be too
-/// much the rest is left as it is, and the error says so.
+/// lines on which the view changes its form, and these are bisected until two rules agree. After 65536 triangles the
+/// rest is left as it is, and the error says so. Time grows with the square of the number of blockers that stand between
+/// the same parts of `a` and `b`; [`polygon_to_polygon_among`](super::polygon_to_polygon_among) takes rays where they are
+/// many. Measured in `f64`: 40 kB of stack, and 6 kB more for each further blocker in one line of sight.
 pub fn visible_polygon_to_polygon<V: Vector>(
     a: &[V],
     b: &[V],
@@ -40,14 +42,15 @@ pub fn visible_polygon_to_polygon<V: Vector>(
 ) -> Estimate<V::Scalar> {
     let [area_a, area_b] = [a, b].map(|polygon| area_vector(polygon.iter().copied()).length());
     if !(area_a > V::Scalar::ZERO && area_b > V::Scalar::ZERO) {
-        return Estimate { value: V::Scalar::ZERO, error: V::Scalar::ZERO };
+        return Estimate::default();
     }
     let ratio = area_b / area_a;
     if is_smoother(a, area_a, b, area_b, blockers) {
-        return integral(a, b, blockers, accuracy);
+        let found = integral(a, b, blockers, accuracy);
+        return Estimate { value: found.value.min(V::Scalar::ONE), ..found };
     }
     let reverse = integral(b, a, blockers, accuracy / ratio);
-    Estimate { value: reverse.value * ratio, error: reverse.error * ratio }
+    Estimate { value: (reverse.value * ratio).min(V::Scalar::ONE), error: reverse.error * ratio }
 }
 
 /// Whether what points of `a` see changes less than what points of `b` see: shadows on what is small and far from the
@@ -69,7 +72,7 @@ fn integral<V: Vector>(a: &[V], b: &[V], blockers: &[&[V]], accuracy: V::Scalar)
     let area = normal_a.length();
     let accuracy = accuracy.max(V::Scalar::from_f64(8.0) * V::Scalar::EPSILON);
     let mut integral = Integral { normal: normal_a / area, area, b, blockers, accuracy, cells: 0 };
-    let mut sum = Estimate { value: V::Scalar::ZERO, error: V::Scalar::ZERO };
+    let mut sum = Estimate::default();
     for i in 2..a.len() {
         let corners = [a[0], a[i - 1], a[i]].map(|corner| corner - b[0]);
         let front = cut(&corners, normal_b.normalize_or_zero(), V::Scalar::EPSILON * area.sqrt());
@@ -105,7 +108,7 @@ impl<'a, V: Vector> Integral<'a, V> {
     /// The part of one triangle of `a`.
     fn over(&mut self, triangle: [V; 3]) -> Estimate<V::Scalar> {
         let mut waiting: heapless::Vec<[V; 3], WAITING> = heapless::Vec::new();
-        let mut sum = Estimate { value: V::Scalar::ZERO, error: V::Scalar::ZERO };
+        let mut sum = Estimate::default();
         let _ = waiting.push(triangle);
         while let Some(cell) = waiting.pop() {
             self.cells += 1;

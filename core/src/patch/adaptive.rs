@@ -1,7 +1,6 @@
 //! After solving: cut where the solution varies.
 
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 
 use super::topology::{restrict, split};
 use super::{Element, Enclosure, Field, Shape};
@@ -91,7 +90,7 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Enclosure<V, S> {
     fn mark(&self, errors: &[V::Scalar], settings: &Refinement<V::Scalar>, target: V::Scalar) -> Vec<usize> {
         let smallest = settings.smallest_area * V::Scalar::from_f64(2.0);
         let mut order: Vec<usize> = (0..errors.len()).filter(|&i| self.elements[i].area >= smallest).collect();
-        order.sort_by(|&i, &j| errors[j].partial_cmp(&errors[i]).unwrap_or(Ordering::Equal));
+        order.sort_by(|&i, &j| errors[j].to_f64().total_cmp(&errors[i].to_f64()));
         let bulk = order.iter().map(|&i| errors[i]).sum::<V::Scalar>() * V::Scalar::from_f64(BULK);
         let mut left = errors.iter().copied().sum::<V::Scalar>();
         let mut held = V::Scalar::ZERO;

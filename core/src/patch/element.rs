@@ -139,7 +139,7 @@ fn centroid<V: Vector>(corners: &[V], normal: V) -> V {
     let (mut sum, mut area) = (V::default(), V::Scalar::ZERO);
     for pair in rest.windows(2) {
         let share = (pair[0] - first).cross(pair[1] - first).dot(normal);
-        sum = sum + (pair[0] - first + (pair[1] - first)) * (share * third);
+        sum += (pair[0] - first + (pair[1] - first)) * (share * third);
         area += share;
     }
     if area > V::Scalar::ZERO {

@@ -64,10 +64,10 @@ impl<V: Vector> Patch<'_, V> {
 ///
 /// Less than three corners give nothing.
 pub fn polygon<'a, V: Vector>(corners: &'a [V]) -> impl Iterator<Item = Patch<'static, V>> + 'a {
-    (1..corners.len().saturating_sub(1)).step_by(2).map(|k| match corners[k..] {
-        [b, c, d, ..] => Patch::Quad([corners[0], b, c, d]),
-        [b, c] => Patch::Triangle([corners[0], b, c]),
-        _ => unreachable!("`k` stops two corners before the end"),
+    (1..corners.len().saturating_sub(1)).step_by(2).filter_map(|k| match corners[k..] {
+        [b, c, d, ..] => Some(Patch::Quad([corners[0], b, c, d])),
+        [b, c] => Some(Patch::Triangle([corners[0], b, c])),
+        _ => None,
     })
 }
 

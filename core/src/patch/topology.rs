@@ -111,7 +111,8 @@ struct Welded<V: Vector> {
 
 impl<V: Vector> Welded<V> {
     fn new<S>(shapes: &[Shape<V, S>], elements: &[Element<V>]) -> Self {
-        let largest = elements.iter().fold(V::Scalar::ZERO, |largest, element| largest.max(element.center.length()));
+        let corners = elements.iter().flat_map(|element| element.corners());
+        let largest = corners.fold(V::Scalar::ZERO, |largest, corner| largest.max(corner.length()));
         let rounding = V::Scalar::EPSILON * V::Scalar::from_f64(512.0);
         let mut welded = Self { positions: Vec::new(), places: BTreeMap::new(), tolerance: largest * rounding };
         for element in elements {
@@ -213,6 +214,21 @@ mod tests {
         assert_eq!(topology.vertices.len(), 12);
         let around: Vec<usize> = (0..12).map(|vertex| topology.around(vertex).len()).collect();
         assert_eq!((around.iter().filter(|&&n| n == 4).count(), around.iter().sum::<usize>()), (2, 24));
+    }
+
+    /// Around the origin lengths say nothing of centers; and what has no extent has one vertex, or none.
+    #[test]
+    fn elements_anywhere() {
+        let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        for (quad, vertices, ring) in [
+            ([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], 4, 4),
+            ([DVec3::ZERO; 4], 1, 1),
+            ([DVec3::NAN; 4], 4, 0),
+        ] {
+            let patches = [Patch::Quad(quad)];
+            let topology = Topology::new(&[shape(&patches)], &[Element::whole(0, 0, &patches[0])]);
+            assert_eq!((topology.vertices.len(), topology.ring(0).len()), (vertices, ring));
+        }
     }
 
     /// Four quarters, one of them cut again: two neighbors have one more vertex each, on the side between.
