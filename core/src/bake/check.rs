@@ -8,13 +8,8 @@ use glam::Vec3;
 use super::{BakeError, BakeSettings};
 use crate::geometry::Mesh;
 use crate::light::{Light, LightSource, SpotLight};
-use crate::lightmap::{Layout, Resolution};
+use crate::lightmap::Resolution;
 use crate::scene::{Receiver, Scene};
-
-/// Refuses a layout without any lightmap.
-pub(super) fn check_layout(layout: &Layout) -> Result<(), BakeError> {
-    if layout.placements.iter().all(Option::is_none) { Err(BakeError::NothingToBake) } else { Ok(()) }
-}
 
 /// Refuses what cannot be baked, with the name of the culprit.
 pub(super) fn check(scene: &Scene, settings: &BakeSettings) -> Result<(), BakeError> {

@@ -23,7 +23,8 @@ use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Occluders, hash, tree};
 use crate::lightmap::{
-    Direct, Gather, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels, filter, layout,
+    Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels,
+    filter, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -67,8 +68,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
 
     log.enter(Stage::Unwrap);
     let workers = Workers::new(settings.threads);
-    let layout = workers.run(|| layout(scene, &settings.layout, progress))?;
-    check::check_layout(&layout)?;
+    let layout = laid_out(scene, settings, &workers, progress)?;
     let needed = memory::check(scene, &layout, &budget, settings)?;
 
     log.enter(Stage::Geometry);
@@ -80,10 +80,10 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let is_valid = check_texels(&mut texels, &tracer, &workers, seeds.of(1), progress)?;
     let patches = Patches::new(&world, &texels, &is_valid, layout.texels_per_meter, budget.patches);
     let (lamps, is_light) = emitters::lamps(&world);
-    let (texels, patches, tracer, workers) = (&texels, &patches, &tracer, &workers);
+    let (texels, is_valid, patches, tracer, workers) = (&texels, &is_valid[..], &patches, &tracer, &workers);
     let pieces = Pieces { tracer, texels, patches, workers, progress, seed: seeds.of(3) };
     let surfaces = pieces.surfaces(&is_light)?;
-    let baker = Baker { pieces: &pieces, surfaces: &surfaces, is_valid: &is_valid, budget, keep: settings.keep, seeds };
+    let baker = Baker { pieces: &pieces, surfaces: &surfaces, is_valid, budget, keep: settings.keep, seeds };
 
     log.enter_after(Stage::Direct, tracer);
     let lighting = Lighting::from(scene);
@@ -98,16 +98,17 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter_after(Stage::Gather, tracer);
     let radiance = surfaces.radiance(&lighting, &direct, &solution, workers, progress)?;
     let nodes = baker.gather(&direct, &radiance)?;
-    let indirect = filter(&nodes.gathered, texels, &is_valid, workers, progress)?;
+    let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
 
     log.enter_after(Stage::Finish, tracer);
-    let assembly = Assembly { texels, is_valid: &is_valid, patches, workers, progress };
+    let assembly = Assembly { texels, is_valid, patches, workers, progress };
     let (images, fills) = assembly.images(&direct, &indirect)?;
-    let is_valid = &is_valid;
     let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let report = done.report(&layout, &lighting, &direct, &nodes, &indirect);
-    let keep = || assembly.transport(surfaces, kept, rows, nodes, fills, scene);
-    let transport = (settings.keep == Keep::Transport).then(keep).transpose()?;
+    let done = done.report(&layout, &lighting, &direct, &nodes, &indirect);
+    let transport = match settings.keep {
+        Keep::Lightmaps => None,
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
+    };
     let report = Report {
         images: images.len(),
         texels: images.iter().map(|image| image.texels.len()).sum(),
@@ -116,9 +117,19 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
         estimated_memory_bytes: needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
         stages: log.finish(tracer),
-        ..report
+        ..done
     };
     Ok(Bake { images, uvs: layout.uvs, placements: layout.placements, transport, report })
+}
+
+fn laid_out(
+    scene: &Scene,
+    settings: &BakeSettings,
+    workers: &Workers,
+    progress: &Progress,
+) -> Result<Layout, BakeError> {
+    let layout = workers.run(|| layout(scene, &settings.layout, progress))?;
+    if layout.placements.iter().all(Option::is_none) { Err(BakeError::NothingToBake) } else { Ok(layout) }
 }
 
 /// The steps that find the light of texels.

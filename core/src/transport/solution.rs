@@ -12,11 +12,11 @@ use crate::progress::{Cancelled, Progress};
 use crate::solve::{Chebyshev, Decay, FormFactors, Solver, System};
 use crate::spectrum::Spectrum;
 
-/// The solution is this close, as a share of the brightest patch. The noise of the rows is tens of times that; and with
-/// so large a reflectance single precision does not tell much smaller errors from none...
+/// The solution is this close, as a share of the brightest light that any patch reflects. The noise of the rows is tens
+/// of times that...
 const TOLERANCE: f32 = 1e-4;
-/// ...which reflectances up to 0.98 reach long before.
-const MOST_SWEEPS: usize = 1000;
+/// ...which reflectances up to 0.98 reach before, unless rounding hides it: next to a radiance a thousand times as large.
+const MOST_SWEEPS: usize = 300;
 
 /// The light of all bounces. Lists have an entry for each patch, one for the sky and one for the black; radiances are
 /// in cd/m2, irradiance is divided by pi.
@@ -62,7 +62,9 @@ impl Solution {
         radiance.resize(direct.len(), Vec3A::ZERO);
         let (mut solver, mut sweeps, mut is_done) = (Chebyshev::new(&system, &mut scratch), 0, false);
         while sweeps < MOST_SWEEPS && !is_done {
-            is_done = solver.step(&system, &mut radiance).is_within(TOLERANCE);
+            let error = solver.step(&system, &mut radiance).error;
+            let reflected = radiance.iter().zip(&emission).map(|(radiance, emission)| radiance - emission);
+            is_done = error.cmple(TOLERANCE * reflected.fold(Vec3A::ZERO, Vec3A::max)).all();
             progress.check()?;
             sweeps += 1;
         }
