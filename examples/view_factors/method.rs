@@ -42,8 +42,6 @@ pub const METHODS: [(&str, Method); 7] = [
 
 /// What [`polygon_to_polygon`] promises.
 const CONTOUR_ERROR: f64 = 1e-12;
-/// Rays tell their standard error; this many of them are hardly ever exceeded.
-const STANDARD_ERRORS: f64 = 4.0;
 
 /// The share of what leaves one polygon that reaches another, past blockers and with an accuracy.
 type Share = fn(&Polygon, &Polygon, &[&[DVec3]], f64) -> Estimate<f64>;
@@ -106,7 +104,7 @@ fn contour(a: &Polygon, b: &Polygon) -> Estimate<f64> {
 fn rays(a: &Polygon, b: &Polygon, blockers: &[&[DVec3]], accuracy: f64) -> Estimate<f64> {
     let triangles: Vec<[Vec3; 3]> = blockers.iter().flat_map(|blocker| fan(&single(blocker))).collect();
     let [a, b] = [a, b].map(|polygon| single(&polygon.corners));
-    let accuracy = (accuracy / STANDARD_ERRORS) as f32;
-    let found = visible_polygon_to_polygon_by_rays(&a, &b, &BruteForce(triangles), accuracy);
-    Estimate { value: found.value.into(), error: STANDARD_ERRORS * f64::from(found.error) }
+    // Accuracy and error are both four standard errors.
+    let found = visible_polygon_to_polygon_by_rays(&a, &b, &BruteForce(triangles), accuracy as f32);
+    Estimate { value: found.value.into(), error: found.error.into() }
 }

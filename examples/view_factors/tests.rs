@@ -1,8 +1,12 @@
 //! Replays the public inputs of View3D against exact values, and checks what the format can say.
 
+use radiosity::form_factor::visible_polygon_to_polygon_by_rays;
+use radiosity::geometry::BruteForce;
+
 use crate::factors::ViewFactors;
 use crate::flaw::Flaw;
 use crate::method::{METHODS, Method};
+use crate::polygon::{Polygon, fan, single};
 use crate::solution::{Solution, solve};
 
 const CUBE: &str = include_str!("cube.vs3");
@@ -147,6 +151,20 @@ fn every_method_within_its_error() {
             assert_within_errors(&of_room.factors, &l_room_factors(), 1e-3, name);
         }
     }
+}
+
+/// The error of rays is what the core tells, at most what was asked for, and not hidden by rays that nobody needs.
+#[test]
+fn rays_stop_at_the_accuracy_asked_for() {
+    const ACCURACY: f64 = 1.0 / 1024.0;
+    let squares = solve(SQUARES, Method::Rays, Some(ACCURACY)).expect("a good input");
+    let corners = |polygon: &Polygon| single(&polygon.corners);
+    let [a, b] = [0, 1].map(|part| corners(&squares.geometry.parts[part].polygon));
+    let between = fan(&corners(&squares.geometry.parts[2].polygon));
+    let found = visible_polygon_to_polygon_by_rays(&a, &b, &BruteForce(between), ACCURACY as f32);
+    assert!(f64::from(found.error) <= ACCURACY && found.error > 0.0, "{found:?}");
+    assert_eq!((squares.factors.factor(0, 1), squares.factors.errors[0]), (found.value.into(), found.error.into()));
+    assert!((squares.factors.factor(0, 1) - 0.75 * OPPOSITE).abs() <= squares.factors.errors[0]);
 }
 
 /// Rays and hemicubes see a wall in pieces around what lies on it; all others the whole less its parts.
