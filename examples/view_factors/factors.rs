@@ -1,7 +1,7 @@
 //! From exchange areas of polygons to view factors of surfaces, closed rows and gray exchange.
 
 use radiosity::form_factor::{Bins, DenseRows, MatrixError, repair_closure};
-use radiosity::solve::{Dense, Stop, System, gauss_seidel};
+use radiosity::solve::{Stop, System, gauss_seidel};
 
 use crate::exchange::Exchange;
 use crate::geometry::{Geometry, Reported};
@@ -70,7 +70,8 @@ impl ViewFactors {
     /// and Sarofim 1967, chapter 3.
     pub fn total_exchange(&self, emissivities: &[f64]) -> Option<Self> {
         let reflectance: Vec<f64> = emissivities.iter().map(|emissivity| 1.0 - emissivity).collect();
-        let form_factors = Dense { count: self.count, factors: &self.factors };
+        let mut factors = self.factors.clone();
+        let form_factors = DenseRows::new(self.count, &mut factors).expect("the matrix is square");
         let dark = vec![0.0; self.count];
         let room = System::new(&dark, &reflectance, &form_factors).look_ahead(&mut dark.clone(), MOST_SWEEPS);
         let mut total = self.clone();

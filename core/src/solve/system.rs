@@ -1,6 +1,7 @@
 //! The system of equations `b = e + rho F b`, and its form factors, a row on demand.
 
 use super::Decay;
+use crate::form_factor::DenseRows;
 use crate::math::Real;
 use crate::spectrum::Spectrum;
 
@@ -32,7 +33,7 @@ pub trait FormFactors {
     }
 }
 
-/// A full square matrix, row after row.
+/// A full square matrix, row after row, that is only read; one that is filled or repaired is [`DenseRows`].
 #[derive(Clone, Copy, Debug)]
 pub struct Dense<'a, R> {
     /// Of one row, and of one column.
@@ -47,6 +48,14 @@ impl<R: Real> FormFactors for Dense<'_, R> {
     fn row(&self, i: usize, mut entry: impl FnMut(usize, R)) {
         let row = &self.factors[i * self.count..(i + 1) * self.count];
         row.iter().enumerate().for_each(|(j, &factor)| entry(j, factor));
+    }
+}
+
+impl<R: Real> FormFactors for DenseRows<'_, R> {
+    type Scalar = R;
+
+    fn row(&self, i: usize, mut entry: impl FnMut(usize, R)) {
+        DenseRows::row(self, i).iter().enumerate().for_each(|(j, &factor)| entry(j, factor));
     }
 }
 
