@@ -14,6 +14,7 @@ use picture::Picture;
 use room::Room;
 
 const STOP: Stop<f64> = Stop { tolerance: 1e-4, most_steps: 100 };
+
 fn main() -> Result<(), Box<dyn Error>> {
     let room = Room::new()?;
     let shapes = room.shapes();
