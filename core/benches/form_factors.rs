@@ -200,7 +200,7 @@ fn call<R: Real>(expected: f64, find: impl Fn() -> Estimate<R> + 'static) -> Cal
 /// A method for points on all polygons of group A.
 fn seen<V: Vector>(end: f64, method: impl Fn(V, V, &[V]) -> Estimate<V::Scalar> + Copy + 'static) -> Vec<Call> {
     let calls = POINT_CASES.iter().filter_map(|case| {
-        let polygon = corners::<V>(&target_polygon(&case.target)?, end);
+        let polygon = corners::<V>(&target_polygon(&case.target, end)?);
         let normal = V::from_dvec3(DVec3::from_array(case.normal));
         Some(call(case.factor, move || method(V::default(), normal, black_box(&polygon))))
     });
@@ -210,7 +210,7 @@ fn seen<V: Vector>(end: f64, method: impl Fn(V, V, &[V]) -> Estimate<V::Scalar> 
 /// A method for pairs on all polygons of group B; the receivers of one sender are added up.
 fn pairs<V: Vector>(end: f64, method: impl Fn(&[V], &[V]) -> Estimate<V::Scalar> + Copy + 'static) -> Vec<Call> {
     let calls = SURFACE_CASES.iter().filter_map(|case| {
-        let (a, others) = surface_polygons(&case.surfaces).or_else(|| strip_polygons(&case.surfaces))?;
+        let (a, others) = surface_polygons(&case.surfaces).or_else(|| strip_polygons(&case.surfaces, end))?;
         let a = corners::<V>(&a, end);
         let others: Vec<Vec<V>> = others.iter().map(|b| corners(b, end)).collect();
         Some(call(case.factor, move || {

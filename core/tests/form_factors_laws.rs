@@ -1,8 +1,12 @@
 //! Laws that form factors obey in any geometry: reciprocity, closure, additivity, and agreement of all methods.
 
+#[path = "reference/small_patch.rs"]
+mod small_patch;
+
 use glam::{DQuat, DVec3, Vec3};
 use radiosity::form_factor::*;
 use radiosity::geometry::hash;
+use small_patch::small_patch;
 
 /// Numbers in `[-1, 1)` that look random.
 struct Numbers(u32);
@@ -183,21 +187,10 @@ fn backs_get_nothing() {
 /// The point formula differs from the exact form factor by at most its bound, and the more it is worth the farther.
 #[test]
 fn the_point_formula_keeps_its_bound() {
-    let patch = |polygon: &[DVec3]| {
-        let (mut center, mut sum) = (DVec3::ZERO, 0.0);
-        for k in 2..polygon.len() {
-            let part = [polygon[0], polygon[k - 1], polygon[k]];
-            center += area(&part) * (part[0] + part[1] + part[2]) / 3.0;
-            sum += area(&part);
-        }
-        center /= sum;
-        let radius = polygon.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max);
-        SmallPatch { center, normal: area_vector(polygon).normalize(), radius, area: sum }
-    };
     let mut worst = [0.0_f64; 3];
     for (step, distance) in [5.0, 50.0, 500.0].into_iter().enumerate() {
         for (a, b) in pairs(200, distance) {
-            let (p, q) = (patch(&a), patch(&b));
+            let (p, q) = (small_patch(&a), small_patch(&b));
             let (exact, found) =
                 (polygon_to_polygon(&a, &b), point_to_point(p.center, p.normal, q.center, q.normal, q.area));
             let bound = point_to_point_error(&p, &q);

@@ -9,20 +9,17 @@ use super::surfaces::Surfaces;
 
 pub type Corners = Vec<DVec3>;
 
-/// Half the length of what has no end.
-const FAR: f64 = 1e4;
-
 /// `corner`, `corner + u`, `corner + u + v`, `corner + v`.
 pub fn rectangle(corner: [f64; 3], u: [f64; 3], v: [f64; 3]) -> Corners {
     let [corner, u, v] = [corner, u, v].map(DVec3::from_array);
     vec![corner, corner + u, corner + u + v, corner + v]
 }
 
-/// The closed form.
-pub fn closed_form<R: Real>(surfaces: &Surfaces) -> R {
+/// The closed form, where there is one: faces of a tetrahedron are known by symmetry only.
+pub fn closed_form<R: Real>(surfaces: &Surfaces) -> Option<R> {
     let number = R::from_f64;
     let bounds = |[x, y]: [[f64; 2]; 2]| Bounds { x: x.map(number), y: y.map(number) };
-    match *surfaces {
+    Some(match *surfaces {
         Surfaces::ParallelRectangles { width, height, distance } => {
             parallel_rectangles(number(width), number(height), number(distance))
         }
@@ -55,8 +52,7 @@ pub fn closed_form<R: Real>(surfaces: &Surfaces) -> R {
         Surfaces::ParallelStrips { width, distance } => parallel_strips(number(width), number(distance)),
         Surfaces::StripsAtAnAngle { degrees } => strips_at_an_angle(R::ONE, R::ONE, number(degrees.to_radians())),
         Surfaces::TriangularDuct { from, to, third } => {
-            let cos = (from * from + to * to - third * third) / (2.0 * from * to);
-            strips_at_an_angle(number(from), number(to), number(cos.acos()))
+            strips_at_an_angle(number(from), number(to), number(duct_angle(from, to, third)))
         }
         Surfaces::BoxRow { width, height, depth } => {
             let two = number(2.0);
@@ -65,8 +61,8 @@ pub fn closed_form<R: Real>(surfaces: &Surfaces) -> R {
                 + two * perpendicular_rectangles(width, height, depth)
                 + two * perpendicular_rectangles(height, width, depth)
         }
-        Surfaces::Tetrahedron => R::ONE / number(3.0),
-    }
+        Surfaces::Tetrahedron => return None,
+    })
 }
 
 /// The sender and all receivers, where they are polygons.
@@ -109,34 +105,33 @@ pub fn surface_polygons(surfaces: &Surfaces) -> Option<(Corners, Vec<Corners>)> 
     })
 }
 
-/// The same for strips, as long rectangles.
-pub fn strip_polygons(surfaces: &Surfaces) -> Option<(Corners, Vec<Corners>)> {
+/// The same for strips, whose receivers end at `far` on both sides.
+///
+/// A piece of a strip without end sends as much to another one as all of it. What lies beyond the ends counts with the
+/// cube of distance over `far`.
+pub fn strip_polygons(surfaces: &Surfaces, far: f64) -> Option<(Corners, Vec<Corners>)> {
+    let piece = |width: f64| rectangle([0.0, -0.5, 0.0], [width, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let ends = [0.0, 2.0 * far, 0.0];
+    // It shares an edge with the piece and leans over it.
+    let wall =
+        |width: f64, angle: f64| rectangle([0.0, -far, 0.0], ends, [width * angle.cos(), 0.0, width * angle.sin()]);
     Some(match *surfaces {
         Surfaces::ParallelStrips { width, distance } => {
-            (short_strip(width), vec![rectangle([0.0, -FAR, distance], [0.0, 2.0 * FAR, 0.0], [width, 0.0, 0.0])])
+            (piece(width), vec![rectangle([0.0, -far, distance], ends, [width, 0.0, 0.0])])
         }
-        Surfaces::StripsAtAnAngle { degrees } => (short_strip(1.0), vec![endless_wall(1.0, degrees.to_radians())]),
-        Surfaces::TriangularDuct { from, to, third } => {
-            let cos = (from * from + to * to - third * third) / (2.0 * from * to);
-            (short_strip(from), vec![endless_wall(to, cos.acos())])
-        }
+        Surfaces::StripsAtAnAngle { degrees } => (piece(1.0), vec![wall(1.0, degrees.to_radians())]),
+        Surfaces::TriangularDuct { from, to, third } => (piece(from), vec![wall(to, duct_angle(from, to, third))]),
         _ => return None,
     })
 }
 
-/// A piece of a strip without end sends as much to another one as all of it.
-fn short_strip(width: f64) -> Corners {
-    rectangle([0.0, -0.5, 0.0], [width, 0.0, 0.0], [0.0, 1.0, 0.0])
+/// Between the first two of three sides.
+pub fn duct_angle(from: f64, to: f64, third: f64) -> f64 {
+    ((from * from + to * to - third * third) / (2.0 * from * to)).acos()
 }
 
-/// A strip that shares an edge with the first one and leans over it.
-fn endless_wall(width: f64, angle: f64) -> Corners {
-    let (sin, cos) = angle.sin_cos();
-    rectangle([0.0, -FAR, 0.0], [0.0, 2.0 * FAR, 0.0], [width * cos, 0.0, width * sin])
-}
-
-/// What an element at the origin looks at, where it is a polygon.
-pub fn target_polygon(target: &Target) -> Option<Corners> {
+/// What an element at the origin looks at, where it is a polygon; strips end at `far` on both sides.
+pub fn target_polygon(target: &Target, far: f64) -> Option<Corners> {
     let ahead =
         |[x, y]: [[f64; 2]; 2], z: f64| rectangle([x[0], y[0], z], [0.0, y[1] - y[0], 0.0], [x[1] - x[0], 0.0, 0.0]);
     Some(match *target {
@@ -145,7 +140,7 @@ pub fn target_polygon(target: &Target) -> Option<Corners> {
         Target::PerpendicularRectangle { width, height, distance } => {
             rectangle([distance, 0.0, 0.0], [0.0, 0.0, height], [0.0, width, 0.0])
         }
-        Target::Strip { from, to } => ahead([[from, to], [-FAR, FAR]], 2.0),
+        Target::Strip { from, to } => ahead([[from, to], [-far, far]], 2.0),
         _ => return None,
     })
 }
