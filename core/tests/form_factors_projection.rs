@@ -54,9 +54,6 @@ fn disc(center: DVec3, radius: f64, axis: DVec3) -> Polygon {
 /// What a point sees, as polygons: the target, and what stands before it. Of the sky it is the ground.
 fn target_polygons(target: &Target) -> [Polygon; 2] {
     let alone = |polygon| [polygon, Vec::new()];
-    if let Some(polygon) = target_polygon(target, FAR) {
-        return alone(polygon);
-    }
     match *target {
         Target::Disc { center, radius } => alone(disc(center.into(), radius, DVec3::Z)),
         // A point sees of a sphere the disc inside the cone around it.
@@ -71,7 +68,7 @@ fn target_polygons(target: &Target) -> [Polygon; 2] {
         }
         Target::SquareLessShadow => [down([-0.5, 0.5], [-0.5, 0.5], 1.0), down([-0.125, 0.125], [-0.125, 0.125], 0.5)],
         Target::DiscLessShadow => [disc(DVec3::Z * 2.0, 1.0, DVec3::Z), disc(DVec3::Z, 0.3, DVec3::Z)],
-        _ => alone(Vec::new()),
+        _ => alone(target_polygon(target, FAR).expect("a polygon")),
     }
 }
 
