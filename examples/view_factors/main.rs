@@ -5,7 +5,7 @@
 //! # Beside View3D
 //!
 //! The largest error of the view factors that View3D 4.0 prints for its public inputs (of the L-shaped room the first
-//! row), and of those found here at the accuracy that the inputs ask for:
+//! row), and of those found here without options:
 //!
 //! | input | error, View3D | error, here | factor | time, View3D | time, here |
 //! |---|---|---|---|---|---|
