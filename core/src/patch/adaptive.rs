@@ -49,10 +49,10 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Enclosure<V, S> {
     /// What was not cut keeps its form factors, and the solution is the start of the next one.
     ///
     /// Neighbors that are equal by symmetry, or that are missing, tell nothing. So each element of the start is probed:
-    /// what four pieces of it gather is compared with the function, and the larger error counts. Pieces of an element
-    /// whose estimate fell short of that are probed again. This costs eight form factors for each pair of elements of the
-    /// start, and a start of one element per patch is enough where the light is smooth. A feature that falls between
-    /// the probes, as a shadow much smaller than the first elements, is still not found: there start fine enough.
+    /// what two pieces of it gather is compared with the function, and the larger error counts. Pieces of an element
+    /// whose estimate fell far short of that are probed again. Each call probes its start anew, by four form factors
+    /// for each pair. One element per patch is start enough where the light is smooth. A feature that falls between the
+    /// probes, as a shadow much smaller than the first elements, is still not found: there start fine enough.
     pub fn refine(
         &mut self,
         shapes: &[Shape<V, S>],
