@@ -1,9 +1,13 @@
 //! Subdivision before and after solving, against laws and against each other.
 
 use glam::DVec3;
-use radiosity::form_factor::{polygon_to_polygon, visible_point_to_polygon};
+use radiosity::form_factor::{
+    Estimate, Hemicube, HemicubeBuffers, Samples, hemicube_deltas, hemicube_pixels, point_to_polygon,
+    polygon_to_polygon, visible_point_to_polygon,
+};
 use radiosity::patch::*;
-use radiosity::solve::Stop;
+use radiosity::solve::{Dense, FormFactors, Stop};
+use radiosity::spline::BezierSurface;
 
 const STOP: Stop<f64> = Stop { tolerance: 1e-9, most_steps: 1000 };
 
@@ -171,11 +175,13 @@ fn adaptive_needs_fewer_elements_than_uniform() {
     let mut form_factor = |a: &Element<DVec3>, b: &Element<DVec3>| scene.form_factor(a, b);
     let even = Enclosure::new(&scene.shapes(), scene.grid(40), &STOP, &mut form_factor);
     let error = scene.error(&even);
-    let mut fit = Enclosure::new(&scene.shapes(), scene.grid(8), &STOP, &mut form_factor);
+    let start = Enclosure::new(&scene.shapes(), scene.grid(8), &STOP, &mut form_factor);
+    let mut fit = start.clone();
     let mut tolerance = 0.1;
     while scene.error(&fit) > error {
         tolerance *= 0.9;
         let settings = Refinement { tolerance, smallest_area: 0.0, most_elements: 1600, stop: STOP };
+        fit.clone_from(&start);
         let (end, _) = fit.refine(&scene.shapes(), &settings, &mut form_factor);
         assert_eq!(end, Refined::Tolerance);
     }
@@ -199,4 +205,157 @@ fn refinement_ends() {
         assert!(error > 1e-6 && enclosure.elements.len() < 130);
         assert!(enclosure.elements.iter().all(|element| element.area >= smallest_area.min(0.01)));
     }
+}
+
+/// A gray surface under a small lamp that does not reflect: the truth is Lambert's formula for a point and the lamp.
+struct UnderLamp<'a> {
+    surface: &'a [Patch<'a, DVec3>],
+    lamp: [Patch<'static, DVec3>; 1],
+    corners: Quad,
+}
+
+impl<'a> UnderLamp<'a> {
+    /// A lamp of 0.2 x 0.2, centered at a point and horizontal.
+    fn new(surface: &'a [Patch<'a, DVec3>], center: DVec3) -> Self {
+        let corners = rectangle([center - DVec3::new(0.1, 0.1, 0.0), DVec3::Y * 0.2, DVec3::X * 0.2]);
+        Self { surface, lamp: [Patch::Quad(corners)], corners }
+    }
+
+    fn shapes(&self) -> [Shape<'_, DVec3, f64>; 2] {
+        [
+            Shape { patches: self.surface, reflectance: 0.6, exitance: 0.0 },
+            Shape { patches: &self.lamp, reflectance: 0.0, exitance: 30.0 },
+        ]
+    }
+
+    fn refine(&self, divisions: [usize; 2], tolerance: f64) -> (Refined, f64, Enclosure<DVec3, f64>) {
+        let shapes = self.shapes();
+        let elements = uniform(0, self.surface, divisions).chain(uniform(1, &self.lamp, [1, 1])).collect();
+        let mut enclosure = Enclosure::new(&shapes, elements, &STOP, &mut exact);
+        let settings = Refinement { tolerance, smallest_area: 0.0, most_elements: 2000, stop: STOP };
+        let (end, error) = enclosure.refine(&shapes, &settings, &mut exact);
+        (end, error, enclosure)
+    }
+
+    /// The root mean square of how far the interpolated radiosity is from the truth, at points of the true surface.
+    fn error(&self, enclosure: &Enclosure<DVec3, f64>) -> f64 {
+        let field = enclosure.field(&self.shapes());
+        let (mut error, mut total) = (0.0, 0.0);
+        for (i, element) in enclosure.elements.iter().enumerate().filter(|(_, element)| element.shape == 0) {
+            let patch = &self.surface[element.patch];
+            for k in 0..25 {
+                let place = place(element, [0.1 + 0.2 * f64::from(k % 5), 0.1 + 0.2 * f64::from(k / 5)]);
+                let (point, normal) = (patch.point(place), patch.normal(place));
+                let truth = 0.6 * 30.0 * point_to_polygon(point, normal, &self.corners);
+                error += (field.value(i, element, point) - truth).powi(2) * element.area;
+                total += truth * truth * element.area;
+            }
+        }
+        (error / total).sqrt()
+    }
+}
+
+/// Where a point of the unit square lies in the domain of the patch of an element.
+fn place(element: &Element<DVec3>, [s, t]: [f64; 2]) -> [f64; 2] {
+    let weights = match element.parameters() {
+        [_, _, _] if s + t > 1.0 => [s + t - 1.0, 1.0 - s, 1.0 - t, 0.0],
+        [_, _, _] => [1.0 - s - t, s, t, 0.0],
+        _ => [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t],
+    };
+    let mean = |axis: usize| element.parameters().iter().zip(weights).map(|(place, w)| place[axis] * w).sum();
+    [mean(0), mean(1)]
+}
+
+/// A flat dome over the unit square.
+const DOME: [DVec3; 9] = [
+    DVec3::new(0.0, 0.0, 0.0),
+    DVec3::new(0.5, 0.0, 0.1),
+    DVec3::new(1.0, 0.0, 0.0),
+    DVec3::new(0.0, 0.5, 0.1),
+    DVec3::new(0.5, 0.5, 0.3),
+    DVec3::new(1.0, 0.5, 0.1),
+    DVec3::new(0.0, 1.0, 0.0),
+    DVec3::new(0.5, 1.0, 0.1),
+    DVec3::new(1.0, 1.0, 0.0),
+];
+
+/// Under the middle of a lamp four quarters are alike, one element has no neighbors, and a row of elements has none to
+/// the side; they say nothing of the error, and still the tolerance is met.
+#[test]
+fn refinement_is_not_fooled_by_symmetry() {
+    let floor = [Patch::Quad(rectangle([DVec3::ZERO, DVec3::X, DVec3::Y]))];
+    let dome = [Patch::Spline(BezierSurface::new(&DOME, 3).unwrap())];
+    for (surface, height) in [(&floor, 0.3), (&dome, 0.5)] {
+        let scene = UnderLamp::new(surface, DVec3::new(0.5, 0.5, height));
+        for divisions in [[1, 1], [2, 2], [1, 3], [3, 3]] {
+            for tolerance in [0.1, 0.05, 0.02] {
+                let (end, estimate, enclosure) = scene.refine(divisions, tolerance);
+                let (error, count) = (scene.error(&enclosure), enclosure.elements.len());
+                println!("{divisions:?} {tolerance}: {count} elements, estimated {estimate:.4}, true {error:.4}");
+                assert_eq!(end, Refined::Tolerance);
+                assert!(error <= tolerance, "{divisions:?}: {error} with {count} elements");
+            }
+        }
+    }
+}
+
+/// Triangles, polygons and splines from one element for each patch to the tolerance, under a lamp beside the middle.
+#[test]
+fn refinement_of_all_kinds_of_patches() {
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let triangle = vec![Patch::Triangle([corner(0.0, 0.0), corner(1.0, 0.1), corner(0.3, 1.0)])];
+    let corners = [corner(0.2, 0.0), corner(0.9, 0.1), corner(1.0, 0.7), corner(0.5, 1.0), corner(0.0, 0.6)];
+    let pentagon: Vec<_> = polygon(&corners).collect();
+    let spline = vec![Patch::Spline(BezierSurface::new(&DOME, 3).unwrap())];
+    for surface in [triangle, pentagon, spline] {
+        let scene = UnderLamp::new(&surface, DVec3::new(0.4, 0.45, 0.6));
+        let (end, estimate, enclosure) = scene.refine([1, 1], 0.02);
+        let (error, count) = (scene.error(&enclosure), enclosure.elements.len());
+        println!("{count} elements, estimated {estimate:.4}, true {error:.4}");
+        assert_eq!(end, Refined::Tolerance);
+        assert!(error <= 0.02 && count < 500, "{error} with {count} elements");
+    }
+}
+
+/// The rows of a cube by hemicubes: reciprocal and near the exact form factors, and the furnace is white to what the
+/// pixels leave.
+#[test]
+fn exchange_by_hemicubes() {
+    const N: usize = 64;
+    let sides = cube();
+    let elements: Vec<_> = (0..6).flat_map(|k| uniform(k, &sides[k], [2, 2]).collect::<Vec<_>>()).collect();
+    let polygons: Vec<&[DVec3]> = elements.iter().map(|element| element.corners()).collect();
+    let count = elements.len();
+    let (mut items, mut depths) = (vec![0; hemicube_pixels(N)], vec![0.0; hemicube_pixels(N)]);
+    let mut deltas = vec![0.0; hemicube_deltas(N)];
+    let buffers = HemicubeBuffers { items: &mut items, depths: &mut depths, deltas: &mut deltas };
+    let mut hemicube = Hemicube::new(N, buffers).unwrap();
+    let (mut factors, mut errors) = (Vec::new(), Vec::new());
+    let (mut row, mut scratch) = (vec![Estimate::default(); count], vec![Estimate::default(); count]);
+    for polygon in &polygons {
+        hemicube.polygon_row(
+            polygon,
+            &polygons,
+            &Samples { points: 16, scrambles: 4, seed: 1 },
+            &mut row,
+            &mut scratch,
+        );
+        factors.extend(row.iter().map(|entry| entry.value));
+        errors.extend(row.iter().map(|entry| entry.error));
+    }
+    let exchange = Exchange::from_rows(&elements, &Dense { count, factors: &factors });
+    let truth = Exchange::new(&elements, &mut exact);
+    for i in 0..count {
+        assert!((exchange.row_sum(i) - 1.0).abs() < 0.02, "{}", exchange.row_sum(i));
+        for j in 0..count {
+            let [found, expected] = [&exchange, &truth].map(|exchange| exchange.between(i, j) / elements[i].area);
+            let error = 0.5 * (errors[i * count + j] + errors[j * count + i]);
+            assert!((found - expected).abs() <= error, "{i} {j}: {found} +- {error} is not {expected}");
+            assert!((found - expected).abs() < 0.1 * expected.max(0.01), "{i} {j}: {found} is not {expected}");
+        }
+    }
+    let shapes = sides.each_ref().map(|patches| Shape { patches, reflectance: 0.75, exitance: 1.0 });
+    let mut enclosure = Enclosure { elements, exchange, radiosity: vec![0.0; count], sweeps: 0, pairs: 0 };
+    enclosure.solve(&shapes, &STOP);
+    assert!(enclosure.radiosity.iter().all(|b: &f64| (b / 4.0 - 1.0).abs() < 0.03), "{:?}", enclosure.radiosity);
 }

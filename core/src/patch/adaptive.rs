@@ -1,7 +1,9 @@
 //! After solving: cut where the solution varies.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
+use super::probe::Hidden;
 use super::topology::{restrict, split};
 use super::{Element, Enclosure, Field, Shape};
 use crate::math::{Real, Vector};
@@ -44,17 +46,24 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Enclosure<V, S> {
     ///
     /// The error of an element is estimated by how far the continuous function through the solution ([`Field`])
     /// differs from its one value, so gradients and jumps between neighbors count alike (Zienkiewicz and Zhu 1987).
-    /// What was not cut keeps its form factors, and the solution is the start of the next one. A feature that no
-    /// element shows, as a shadow that is smaller than the first elements, is not found: start fine enough.
+    /// What was not cut keeps its form factors, and the solution is the start of the next one.
+    ///
+    /// Neighbors that are equal by symmetry, or that are missing, tell nothing. So each element of the start is probed:
+    /// what two pieces of it gather is compared with the function, and the larger error counts. Pieces of an element
+    /// whose estimate fell far short of that are probed again. Each call probes its start anew, by four form factors
+    /// for each pair. One element per patch is start enough where the light is smooth. A feature that falls between the
+    /// probes, as a shadow much smaller than the first elements, is still not found: there start fine enough.
     pub fn refine(
         &mut self,
         shapes: &[Shape<V, S>],
         settings: &Refinement<V::Scalar>,
         form_factor: &mut impl FnMut(&Element<V>, &Element<V>) -> V::Scalar,
     ) -> (Refined, V::Scalar) {
+        let mut hidden = vec![Hidden::Unknown; self.elements.len()];
         loop {
             let field = self.field(shapes);
-            let errors = self.errors(&field);
+            self.confirm(shapes, &field, &mut hidden, form_factor);
+            let errors = self.errors(&field, &hidden);
             let scale = self.scale(shapes);
             let error = (errors.iter().copied().sum::<V::Scalar>() / scale).sqrt();
             let marked = self.mark(&errors, settings, settings.tolerance * settings.tolerance * scale);
@@ -67,14 +76,18 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Enclosure<V, S> {
             if marked.is_empty() {
                 return (Refined::SmallestArea, error);
             }
-            self.cut(shapes, &field, &marked, form_factor);
+            let origins = self.cut(shapes, &field, &marked, form_factor);
+            hidden = origins.iter().map(|origin| origin.hidden(&hidden)).collect();
             self.solve(shapes, &settings.stop);
         }
     }
 
     /// The integral over each element of the square of its error.
-    fn errors(&self, field: &Field<V, S>) -> Vec<V::Scalar> {
-        let of = |(i, element): (usize, &Element<V>)| field.errors[i] * field.errors[i] * element.area;
+    fn errors(&self, field: &Field<V, S>, hidden: &[Hidden<V::Scalar>]) -> Vec<V::Scalar> {
+        let of = |(i, element): (usize, &Element<V>)| {
+            let error = hidden[i].error(field.errors[i]);
+            error * error * element.area
+        };
         self.elements.iter().enumerate().map(of).collect()
     }
 
@@ -106,13 +119,15 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Enclosure<V, S> {
     }
 
     /// Cuts these elements, and others so that neighbors stay alike; the pieces start with the value of the field.
+    ///
+    /// Gives for each element what it was before.
     fn cut(
         &mut self,
         shapes: &[Shape<V, S>],
         field: &Field<V, S>,
         marked: &[usize],
         form_factor: &mut impl FnMut(&Element<V>, &Element<V>) -> V::Scalar,
-    ) {
+    ) -> Vec<Origin> {
         let before = self.elements.clone();
         let mut parents: Vec<usize> = (0..before.len()).collect();
         marked.iter().for_each(|&i| split(shapes, &mut self.elements, i));
@@ -130,5 +145,26 @@ impl<V: Vector, S: Spectrum<Scalar = V::Scalar>> Enclosure<V, S> {
             if i < before.len() { self.radiosity[i] = start } else { self.radiosity.push(start) }
         }
         self.pairs += self.exchange.update(&self.elements, &changed, form_factor);
+        let mut origins: Vec<Origin> = parents.into_iter().map(Origin::Piece).collect();
+        (0..before.len()).filter(|i| changed.binary_search(i).is_err()).for_each(|i| origins[i] = Origin::Same(i));
+        origins
+    }
+}
+
+/// What an element was before a step.
+enum Origin {
+    /// Itself.
+    Same(usize),
+    /// A part of this one.
+    Piece(usize),
+}
+
+impl Origin {
+    /// What is known of an element, from what was known before.
+    fn hidden<R: Real>(&self, before: &[Hidden<R>]) -> Hidden<R> {
+        match *self {
+            Self::Same(i) => before[i],
+            Self::Piece(i) => before[i].of_pieces(),
+        }
     }
 }

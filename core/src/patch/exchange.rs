@@ -64,10 +64,9 @@ impl<R: Real> Exchange<R> {
         let mut asked = 0;
         for i in 0..elements.len() {
             for j in (0..i).filter(|&j| is_changed[i] || is_changed[j]) {
-                let (small, large) = in_order(&elements[i], &elements[j]);
-                let sees = small.area > R::ZERO && small.faces(large) && large.faces(small);
-                asked += usize::from(sees);
-                self.pairs[place(i, j)] = if sees { small.area * form_factor(small, large) } else { R::ZERO };
+                let exchange = exchanged(&elements[i], &elements[j], form_factor);
+                asked += usize::from(exchange.is_some());
+                self.pairs[place(i, j)] = exchange.unwrap_or(R::ZERO);
             }
         }
         asked
@@ -83,6 +82,17 @@ impl<R: Real> Exchange<R> {
 fn place(i: usize, j: usize) -> usize {
     let (low, high) = (i.min(j), i.max(j));
     high * (high - 1) / 2 + low
+}
+
+/// `A_a F_ab` in square meters, asked for if the two face each other.
+pub(super) fn exchanged<V: Vector>(
+    a: &Element<V>,
+    b: &Element<V>,
+    form_factor: &mut impl FnMut(&Element<V>, &Element<V>) -> V::Scalar,
+) -> Option<V::Scalar> {
+    let (small, large) = in_order(a, b);
+    let sees = small.area > V::Scalar::ZERO && small.faces(large) && large.faces(small);
+    sees.then(|| small.area * form_factor(small, large))
 }
 
 /// The smaller one first.

@@ -81,6 +81,8 @@ mod reconstruct;
 #[cfg(feature = "alloc")]
 mod enclosure;
 #[cfg(feature = "alloc")]
+mod probe;
+#[cfg(feature = "alloc")]
 mod topology;
 
 #[cfg(feature = "alloc")]
