@@ -108,8 +108,9 @@ fn known_pairs_by_rays() {
             let error = (f64::from(found.value) - case.factor).abs();
             // The ends of the strips are seen at 3e-6.
             assert!(error < f64::from(found.error) + 3e-6, "{}: {error:e}, {found:?}", case.name);
-            // Where polygons share an edge a million rays do not reach more.
-            let least = if case.name.contains("share an edge") { 1.2e-3 } else { 0.0 };
+            // A million rays do not reach more where polygons share an edge or most of one is far away.
+            let is_hard = ["share an edge", "endless"].iter().any(|kind| case.name.contains(kind));
+            let least = if is_hard { 1.5e-3 } else { 0.0 };
             assert!(found.error <= accuracy.max(least), "{}: {found:?}", case.name);
         }
     }

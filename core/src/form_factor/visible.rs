@@ -4,6 +4,7 @@
 use crate::math::{Real, Vector};
 
 use super::critical::{Critical, longest};
+use super::cubature::halves;
 use super::shadow::{Fan, area_vector, cut, fans, seen};
 use super::shaft::Shaft;
 use super::triangle_rule::{Means, means};
@@ -161,7 +162,9 @@ impl<'a, V: Vector> Integral<'a, V> {
         let critical = longest(cell, fans(self.b), blockers.clone());
         let center = cell[0].lerp(cell[1].lerp(cell[2], V::Scalar::from_f64(0.5)), V::Scalar::from_f64(2.0 / 3.0));
         let weight = share * seen(center, self.normal, self.b, core::iter::empty());
-        let apart = |critical: Option<Critical<V>>| critical.map_or_else(|| bisect(cell), |at| split(cell, &at));
+        let apart = |critical: Option<Critical<V>>| {
+            critical.map_or_else(|| heapless::Vec::from_iter(halves(cell)), |at| split(cell, &at))
+        };
         if critical.is_some() && weight > self.accuracy * V::Scalar::from_f64(HEAVY) && may_split {
             return Step::Split(apart(critical));
         }
@@ -224,19 +227,4 @@ fn split<V: Vector>(cell: &[V; 3], critical: &Critical<V>) -> heapless::Vec<[V; 
         }
     }
     parts
-}
-
-/// The halves of a triangle, cut across its longest edge.
-fn bisect<V: Vector>(cell: &[V; 3]) -> heapless::Vec<[V; 3], 3> {
-    let [a, b, c] = *cell;
-    let lengths = [(b - a).length_squared(), (c - b).length_squared(), (a - c).length_squared()];
-    let [a, b, c] = if lengths[0] >= lengths[1].max(lengths[2]) {
-        [a, b, c]
-    } else if lengths[1] >= lengths[2] {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    };
-    let middle = a.lerp(b, V::Scalar::from_f64(0.5));
-    heapless::Vec::from_iter([[a, middle, c], [middle, b, c]])
 }
