@@ -27,7 +27,7 @@
 //! | [`gauss_seidel`] | 0 | patches in an order | 5, 14, 71 |
 //! | [`over_relaxation`] | 0 | patches in an order; reciprocity | 4, 8, 20 |
 //! | [`southwell`] | 1 | areas; reciprocity; one row for each shot | 3, 13, 70 |
-//! | [`chebyshev`] | 2 | | 5, 10, 25 |
+//! | [`chebyshev`] | 2 | reciprocity, up to noise | 5, 10, 25 |
 //! | [`conjugate_gradient`] | 3 | areas; reciprocity; sums over all patches | 4, 6, 9 |
 //!
 //! The picture is from `examples/convergence.rs`: a closed cube of 294 patches, lit by one of them, until the error is

@@ -31,7 +31,7 @@ pub struct Facet<V, R> {
 ///
 /// The diffuse part of Phong's lighting model (1975), with the square of the distance. An emitting patch counts as a
 /// disc, `F = cos a cos b A / (pi r^2 + A)`, which is the formula for two points where it is far away, and never above
-/// 1 where it is near.
+/// 1 where it is near. There is a facet for each patch; radiosities beyond them stay what they are.
 pub fn phong_start<S, V, F>(
     system: &System<S, F>,
     facets: &[Facet<V, S::Scalar>],

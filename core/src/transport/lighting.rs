@@ -90,11 +90,11 @@ impl Lighting {
         }
     }
 
-    /// The strength of a source.
+    /// The strength of a source; zero of one that does not exist.
     pub fn strength(&self, origin: Origin) -> Vec3 {
         match origin {
-            Origin::Lamp(lamp) => self.lamps[lamp as usize],
-            Origin::Material(material) => self.materials[material as usize].emissive,
+            Origin::Lamp(lamp) => self.lamps.get(lamp as usize).copied().unwrap_or_default(),
+            Origin::Material(material) => self.materials.get(material as usize).map_or(Vec3::ZERO, |m| m.emissive),
             Origin::Sky => self.sky,
         }
     }
