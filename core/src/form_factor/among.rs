@@ -28,12 +28,14 @@ const FINE: f64 = 1e-4;
 /// - Nothing in the shaft between the two: [`polygon_to_polygon`], exact.
 /// - Convex blockers, at most 8 of them in the shaft, or 32 for an accuracy below 1e-4:
 ///   [`visible_polygon_to_polygon`](super::visible_polygon_to_polygon).
-/// - Otherwise, and where the error of that is larger than `accuracy`:
-///   [`visible_polygon_to_polygon_by_rays`](super::visible_polygon_to_polygon_by_rays), in single precision; the error is four standard ones then. Of two results the one with the smaller error counts.
+/// - Otherwise [`visible_polygon_to_polygon_by_rays`](super::visible_polygon_to_polygon_by_rays), in single precision;
+///   the error is four standard ones then.
+/// - Where one of the two misses `accuracy` among at most 32 convex blockers, the other one too; the smaller error
+///   counts.
 ///
 /// Work is bounded by 65536 triangles, fewer among more than 4 blockers, and by a million rays, fewer past more than 64
-/// blockers: hundreds of blockers are known to about 1e-3. Where that does not do, the error is larger than
-/// `accuracy`; rays past a tree of the blockers go further.
+/// blockers, where hundreds are known to about 1e-3. If that does not do, the error is larger than `accuracy`; rays past
+/// a tree of the blockers go further.
 pub fn polygon_to_polygon_among<V: Vector>(
     a: &[V],
     b: &[V],
@@ -51,20 +53,28 @@ pub fn polygon_to_polygon_among<V: Vector>(
     }
     let most_rays = u64::from(MOST_RAYS * MANY) / (blockers.len() as u64).max(MANY.into());
     let by_rays = || cast(a, b, &PolygonOccluders(blockers), accuracy, most_rays as u32);
-    let most = if accuracy < V::Scalar::from_f64(FINE) { SOME } else { FEW };
-    let count = near().take(most + 1).count();
-    if count > most || !near().all(|blocker| is_convex(blocker)) {
+    let count = near().take(SOME + 1).count();
+    if count > SOME || !near().all(|blocker| is_convex(blocker)) {
         return by_rays();
     }
     // Each triangle takes time with the square of the number of blockers.
-    let squared = count.max(ALL_CELLS) * count.max(ALL_CELLS);
-    let most_cells = MOST_CELLS * ALL_CELLS * ALL_CELLS / squared;
-    let exact = within(a, b, blockers, accuracy, most_cells);
-    if exact.error <= accuracy {
-        return exact;
+    let most_cells = MOST_CELLS * ALL_CELLS * ALL_CELLS / (count * count).max(ALL_CELLS * ALL_CELLS);
+    let clipped = || within(a, b, blockers, accuracy, most_cells);
+    if count > FEW && accuracy >= V::Scalar::from_f64(FINE) {
+        better(accuracy, by_rays, clipped)
+    } else {
+        better(accuracy, clipped, by_rays)
     }
-    let rays = by_rays();
-    if rays.error < exact.error { rays } else { exact }
+}
+
+/// The first result if it reaches the accuracy, else that of both with the smaller error.
+fn better<R: Real>(accuracy: R, first: impl Fn() -> Estimate<R>, second: impl Fn() -> Estimate<R>) -> Estimate<R> {
+    let found = first();
+    if found.error <= accuracy {
+        return found;
+    }
+    let other = second();
+    if other.error < found.error { other } else { found }
 }
 
 /// Whether a simple polygon is planar and turns one way only, up to rounding.
