@@ -44,12 +44,57 @@ fn known_pairs_in_double_precision() {
 }
 
 #[test]
+fn known_pairs_by_the_method_that_fits() {
+    for accuracy in [1e-3, 1e-6] {
+        for case in PAIRS {
+            let (a, b, blockers) = geometry::<DVec3>(case, f64::MAX);
+            let found = polygon_to_polygon_among(&a, &b, &slices(&blockers), accuracy);
+            let error = (found.value - case.factor).abs();
+            assert!(error <= found.error + case.tolerance, "{}: {error:e} at {accuracy:e}, {found:?}", case.name);
+            assert!(found.error <= accuracy, "{}: {found:?} at {accuracy:e}", case.name);
+        }
+    }
+}
+
+/// The mean of what points of `a`, a parallelogram or a regular polygon, see of `b`, with four standard errors.
+fn mean_over_points(a: &[DVec3], b: &[DVec3], blockers: &[&[DVec3]]) -> Estimate<f64> {
+    const POINTS: u32 = 64;
+    let normal = (a[1] - a[0]).cross(a[2] - a[0]).normalize();
+    // Equal triangles, a fan around the center.
+    let center = a.iter().sum::<DVec3>() / a.len() as f64;
+    let see = |sequence: &Sobol, index: u32| {
+        let square = sequence.square(index).as_dvec2();
+        let (place, root) = (square.x * a.len() as f64, square.y.sqrt());
+        let edge = place as usize;
+        let rim = a[edge].lerp(a[(edge + 1) % a.len()], place.fract());
+        visible_point_to_polygon(center.lerp(rim, root), normal, b, blockers)
+    };
+    let mean = |seed| (0..POINTS).map(|index| see(&Sobol::new(seed), index)).sum::<f64>() / f64::from(POINTS);
+    let means: [f64; 16] = std::array::from_fn(|seed| mean(seed as u32));
+    let value = means.iter().sum::<f64>() / 16.0;
+    let squares: f64 = means.iter().map(|mean| (mean - value).powi(2)).sum();
+    Estimate { value, error: 4.0 * (squares / (16.0 * 15.0)).sqrt() }
+}
+
+#[test]
+fn known_pairs_from_their_points() {
+    for case in PAIRS {
+        let (a, b, blockers) = geometry::<DVec3>(case, f64::MAX);
+        let found = mean_over_points(&a, &b, &slices(&blockers));
+        let error = (found.value - case.factor).abs();
+        assert!(error <= found.error + 1e-10, "{}: {error:e}, {found:?}", case.name);
+        assert!(found.error < 2e-3, "{}: {found:?}", case.name);
+    }
+}
+
+#[test]
 fn known_pairs_in_single_precision() {
     for case in PAIRS {
         let (a, b, blockers) = geometry::<Vec3>(case, 1000.0);
         let found = visible_polygon_to_polygon(&a, &b, &slices(&blockers), 1e-6);
         let error = (f64::from(found.value) - case.factor).abs();
-        assert!(error < 2e-6 && found.error < 4e-6, "{}: {error:e}, {found:?}", case.name);
+        assert!(error <= f64::from(found.error), "{}: {error:e}, {found:?}", case.name);
+        assert!(found.error < 4e-6, "{}: {found:?}", case.name);
     }
 }
 
@@ -63,7 +108,10 @@ fn known_pairs_by_rays() {
             let error = (f64::from(found.value) - case.factor).abs();
             // The ends of the strips are seen at 3e-6.
             assert!(error < f64::from(found.error) + 3e-6, "{}: {error:e}, {found:?}", case.name);
-            assert!(found.error < 4e-3, "{}: {found:?}", case.name);
+            // A million rays do not reach more where polygons share an edge or most of one is far away.
+            let is_hard = ["share an edge", "endless"].iter().any(|kind| case.name.contains(kind));
+            let least = if is_hard { 1.5e-3 } else { 0.0 };
+            assert!(found.error <= accuracy.max(least), "{}: {found:?}", case.name);
         }
     }
 }
@@ -96,18 +144,17 @@ fn known_discs() {
     }
 }
 
+/// A regular polygon with the area of a disc that looks down.
+fn disc(corners: u32, radius: f64, height: f64) -> Polygon {
+    let step = std::f64::consts::TAU / f64::from(corners);
+    let radius = radius * (step / step.sin()).sqrt();
+    let angles = (0..corners).rev().map(|k| f64::from(k) * step);
+    angles.map(|angle| DVec3::new(angle.cos() * radius, angle.sin() * radius, height)).collect()
+}
+
 /// Regular polygons with the areas of discs, so large that they are handled in parts.
 #[test]
 fn large_polygons() {
-    let disc = |corners: u32, radius: f64, height: f64| -> Polygon {
-        let step = std::f64::consts::TAU / f64::from(corners);
-        let radius = radius * (step / step.sin()).sqrt();
-        (0..corners)
-            .rev()
-            .map(|k| DVec3::new((f64::from(k) * step).cos(), (f64::from(k) * step).sin(), 0.0) * radius)
-            .map(|corner| corner.with_z(height))
-            .collect()
-    };
     for corners in [50, 64, 200] {
         let (receiver, blocker) = (disc(corners, 1.0, 2.0), disc(corners, 0.3, 1.0));
         let seen = visible_point_to_polygon(DVec3::ZERO, DVec3::Z, &receiver, &[&blocker]);
@@ -115,12 +162,50 @@ fn large_polygons() {
         let error = (seen - POINT_TO_RING).abs();
         assert!(error < 100.0 / f64::from(corners).powi(4), "{corners}: {error:e}");
     }
-    let case = &DISCS[2];
-    let (mut a, b) = (disc(64, case.radii[0], 0.0), disc(64, case.radii[1], case.distance));
-    a.reverse();
-    let blocker = disc(64, case.blocker_radius, case.blocker_distance);
-    let found = visible_polygon_to_polygon(&a, &b, &[&blocker], 1e-4);
-    assert!((found.value - case.factor).abs() < 1e-4, "{found:?}");
+    for case in DISCS {
+        let (mut a, b) = (disc(64, case.radii[0], 0.0), disc(64, case.radii[1], case.distance));
+        a.reverse();
+        let blocker = disc(64, case.blocker_radius, case.blocker_distance);
+        let found = polygon_to_polygon_among(&a, &b, &[&blocker], 1e-4);
+        assert!((found.value - case.factor).abs() < 1e-4, "{}: {found:?}", case.name);
+        let found = mean_over_points(&a, &b, &[&blocker]);
+        assert!((found.value - case.factor).abs() < found.error + 1e-5, "{}: {found:?}", case.name);
+    }
+}
+
+/// Slats across `from..to` at `height`, of which each hides the first half of its share, in the order of `turn`.
+fn slats(count: usize, [from, to]: [f64; 2], height: f64, turn: usize) -> Vec<Polygon> {
+    let step = (to - from) / count as f64;
+    let slat = |k: usize| {
+        let x = from + step * (k * turn % count) as f64;
+        [(x, -9.0), (x + 0.5 * step, -9.0), (x + 0.5 * step, 9.0), (x, 9.0)].map(|(x, y)| DVec3::new(x, y, height))
+    };
+    (0..count).map(|k| slat(k).to_vec()).collect()
+}
+
+/// A strip without blockers where the slats have gaps, in any order of the slats.
+#[test]
+fn a_point_sees_past_thousands_of_blockers() {
+    const COUNT: usize = 3000;
+    let strip =
+        |from: f64, to: f64| [(from, -1.0), (from, 1.0), (to, 1.0), (to, -1.0)].map(|(x, y)| DVec3::new(x, y, 1.0));
+    let (point, step) = (DVec3::new(0.1, 0.2, 0.0), 2.0 / COUNT as f64);
+    // At half the height the gap from x to x + d shows twice as much of the strip, seen from the point.
+    let gap = |k: usize| {
+        let [from, to] = [0.5, 1.0].map(|share| 0.5 * (point.x - 1.0) + 0.5 * step * (k as f64 + share));
+        let [from, to] = [from, to].map(|x| point.x + 2.0 * (x - point.x));
+        visible_point_to_polygon(point, DVec3::Z, &strip(from, to), &[])
+    };
+    let expected: f64 = (0..COUNT).map(gap).sum();
+    let look = move || {
+        for turn in [1, 1747] {
+            let slats = slats(COUNT, [0.5 * (point.x - 1.0), 0.5 * (point.x + 1.0)], 0.5, turn);
+            let seen = visible_point_to_polygon(point, DVec3::Z, &strip(-1.0, 1.0), &slices(&slats));
+            assert!((seen - expected).abs() < 1e-11, "{turn}: {seen} {expected}");
+        }
+    };
+    // A quarter of what threads have.
+    std::thread::Builder::new().stack_size(512 << 10).spawn(look).unwrap().join().unwrap();
 }
 
 /// Numbers in `[0, 1)` that look random.
@@ -321,6 +406,33 @@ fn the_method_that_fits() {
     let rays = polygon_to_polygon_among(&a, &b, &slices(&many), 1e-3);
     let exact = visible_polygon_to_polygon(&a, &b, &slices(&many), 1e-3);
     assert!((exact.value - rays.value).abs() < rays.error + exact.error, "{exact:?} {rays:?}");
+}
+
+/// Blockers in one plane hide what each of them hides.
+#[test]
+fn polygons_among_hundreds_of_slats() {
+    let (a, b, _) = geometry::<DVec3>(&PAIRS[0], f64::MAX);
+    let whole = polygon_to_polygon(&a, &b);
+    for (count, accuracy, stated) in [(24, 1e-3, 1e-3), (24, 1e-6, 1e-6), (300, 5e-5, 2e-3)] {
+        let slats = slats(count, [0.1, 0.9], 0.5, 7);
+        let hidden = |slat: &Polygon| whole - visible_polygon_to_polygon(&a, &b, &[slat], 1e-8).value;
+        let expected = whole - slats.iter().map(hidden).sum::<f64>();
+        let found = polygon_to_polygon_among(&a, &b, &slices(&slats), accuracy);
+        assert!((found.value - expected).abs() <= found.error + 1e-8, "{count}: {found:?} {expected}");
+        assert!(found.error <= stated, "{count}: {found:?}");
+    }
+}
+
+/// A sheet just above the sender hides everything, the sender itself nothing.
+#[test]
+fn rays_meet_what_lies_on_a_polygon() {
+    let (a, b, _) = geometry::<DVec3>(&PAIRS[0], f64::MAX);
+    let whole = polygon_to_polygon(&a, &b);
+    for (height, expected) in [(0.0, whole), (5e-5, 0.0), (1.0 - 5e-5, 0.0), (1.0, whole)] {
+        let sheet = [(-1.0, -1.0), (2.0, -1.0), (2.0, 2.0), (-1.0, 2.0)].map(|(x, y)| DVec3::new(x, y, height));
+        let found = visible_polygon_to_polygon_by_rays(&a, &b, &PolygonOccluders(&[&sheet, &a, &b]), 1e-3);
+        assert!((found.value - expected).abs() < 1e-15, "{height}: {found:?}");
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::shadow::area_vector;
 use crate::math::{Real, Vector};
 
 /// A planar polygon, measured.
@@ -23,14 +24,9 @@ impl Plane {
     /// The plane of a polygon that runs counter-clockwise seen from its front; none without a finite area.
     pub fn of<V: Vector>(polygon: &[V]) -> Option<Self> {
         let anchor = polygon.first()?.to_dvec3();
-        let (mut twice, mut sum, mut from) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
-        for corner in polygon {
-            let to = corner.to_dvec3() - anchor;
-            twice += from.cross(to);
-            sum += to;
-            from = to;
-        }
-        let center = anchor + sum / polygon.len() as f64;
+        let offsets = polygon.iter().map(|corner| corner.to_dvec3() - anchor);
+        let twice = area_vector(offsets.clone());
+        let center = anchor + offsets.sum::<DVec3>() / polygon.len() as f64;
         let squared = polygon.iter().map(|corner| corner.to_dvec3().distance_squared(center)).fold(0.0, f64::max);
         let length = Real::sqrt(twice.length_squared());
         let has_area = length.is_finite() && length > 1e-14 * squared;

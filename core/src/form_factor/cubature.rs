@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Estimate;
 use super::triangle_rule::mean;
-use crate::math::Real;
+use crate::math::{Real, Vector};
 
 /// Triangles are cut into four at most so often.
 const DEPTH: u32 = 30;
@@ -91,9 +91,9 @@ fn add(sum: &mut Estimate<f64>, part: Estimate<f64>) {
     sum.error += part.error;
 }
 
-/// Cut at the longest edge, so that slivers become better shaped.
-fn halves(&[a, b, c]: &[DVec3; 3]) -> [[DVec3; 3]; 2] {
-    let [ab, bc, ca] = [a.distance_squared(b), b.distance_squared(c), c.distance_squared(a)];
+/// The halves of a triangle, cut at the longest edge, so that slivers become better shaped.
+pub fn halves<V: Vector>(&[a, b, c]: &[V; 3]) -> [[V; 3]; 2] {
+    let [ab, bc, ca] = [b - a, c - b, a - c].map(V::length_squared);
     let [a, b, c] = if ab >= bc && ab >= ca {
         [a, b, c]
     } else if bc >= ca {
@@ -101,7 +101,7 @@ fn halves(&[a, b, c]: &[DVec3; 3]) -> [[DVec3; 3]; 2] {
     } else {
         [c, a, b]
     };
-    let middle = (a + b) * 0.5;
+    let middle = a.lerp(b, V::Scalar::from_f64(0.5));
     [[a, middle, c], [middle, b, c]]
 }
 

@@ -4,6 +4,7 @@
 use crate::math::{Real, Vector};
 
 use super::critical::{Critical, longest};
+use super::cubature::halves;
 use super::shadow::{Fan, area_vector, cut, fans, seen};
 use super::shaft::Shaft;
 use super::triangle_rule::{Means, means};
@@ -12,7 +13,7 @@ use super::{Estimate, polygon_to_polygon};
 /// Triangles that wait; each split adds two at most.
 const WAITING: usize = 64;
 /// Triangles after which no more are split.
-const MOST_CELLS: usize = 1 << 16;
+pub(super) const MOST_CELLS: usize = 1 << 16;
 /// Blockers of one triangle; where more are in the way, all are asked.
 const NEAR_BLOCKERS: usize = 32;
 /// A triangle may err by this share of the accuracy, however small it is.
@@ -33,12 +34,24 @@ const KINK: f64 = 0.004;
 /// lines on which the view changes its form, and these are bisected until two rules agree. After 65536 triangles the
 /// rest is left as it is, and the error says so. Time grows with the square of the number of blockers that stand between
 /// the same parts of `a` and `b`; [`polygon_to_polygon_among`](super::polygon_to_polygon_among) takes rays where they are
-/// many. Measured in `f64`: 40 kB of stack, and 6 kB more for each further blocker in one line of sight.
+/// many. Measured in `f64`: 40 kB of stack, and 10 kB more for each halving of `b` down to its smallest visible piece, at
+/// most 41 of them.
 pub fn visible_polygon_to_polygon<V: Vector>(
     a: &[V],
     b: &[V],
     blockers: &[&[V]],
     accuracy: V::Scalar,
+) -> Estimate<V::Scalar> {
+    within(a, b, blockers, accuracy, MOST_CELLS)
+}
+
+/// [`visible_polygon_to_polygon`] with another bound on the number of triangles.
+pub(super) fn within<V: Vector>(
+    a: &[V],
+    b: &[V],
+    blockers: &[&[V]],
+    accuracy: V::Scalar,
+    most_cells: usize,
 ) -> Estimate<V::Scalar> {
     let [area_a, area_b] = [a, b].map(|polygon| area_vector(polygon.iter().copied()).length());
     if !(area_a > V::Scalar::ZERO && area_b > V::Scalar::ZERO) {
@@ -46,10 +59,10 @@ pub fn visible_polygon_to_polygon<V: Vector>(
     }
     let ratio = area_b / area_a;
     if is_smoother(a, area_a, b, area_b, blockers) {
-        let found = integral(a, b, blockers, accuracy);
+        let found = integral(a, b, blockers, accuracy, most_cells);
         return Estimate { value: found.value.min(V::Scalar::ONE), ..found };
     }
-    let reverse = integral(b, a, blockers, accuracy / ratio);
+    let reverse = integral(b, a, blockers, accuracy / ratio, most_cells);
     Estimate { value: (reverse.value * ratio).min(V::Scalar::ONE), error: reverse.error * ratio }
 }
 
@@ -67,11 +80,17 @@ fn is_smoother<V: Vector>(a: &[V], area_a: V::Scalar, b: &[V], area_b: V::Scalar
 }
 
 /// The mean over the points of `a` of what they see of `b`; both have an area.
-fn integral<V: Vector>(a: &[V], b: &[V], blockers: &[&[V]], accuracy: V::Scalar) -> Estimate<V::Scalar> {
+fn integral<V: Vector>(
+    a: &[V],
+    b: &[V],
+    blockers: &[&[V]],
+    accuracy: V::Scalar,
+    most_cells: usize,
+) -> Estimate<V::Scalar> {
     let [normal_a, normal_b] = [a, b].map(|polygon| area_vector(polygon.iter().copied()));
     let area = normal_a.length();
     let accuracy = accuracy.max(V::Scalar::from_f64(8.0) * V::Scalar::EPSILON);
-    let mut integral = Integral { normal: normal_a / area, area, b, blockers, accuracy, cells: 0 };
+    let mut integral = Integral { normal: normal_a / area, area, b, blockers, accuracy, cells: 0, most_cells };
     let mut sum = Estimate::default();
     for i in 2..a.len() {
         let corners = [a[0], a[i - 1], a[i]].map(|corner| corner - b[0]);
@@ -96,6 +115,8 @@ struct Integral<'a, V: Vector> {
     accuracy: V::Scalar,
     /// How many triangles have been looked at.
     cells: usize,
+    /// How many may be.
+    most_cells: usize,
 }
 
 /// What is to be done with a triangle.
@@ -112,7 +133,7 @@ impl<'a, V: Vector> Integral<'a, V> {
         let _ = waiting.push(triangle);
         while let Some(cell) = waiting.pop() {
             self.cells += 1;
-            let may_split = waiting.len() + 3 < WAITING && self.cells + waiting.len() < MOST_CELLS;
+            let may_split = waiting.len() + 3 < WAITING && self.cells + waiting.len() < self.most_cells;
             let all = self.blockers.iter().flat_map(|blocker| fans(blocker));
             let step = match near(&Shaft::new(&cell, self.b), all.clone()) {
                 Ok(near) => self.step(&cell, near.iter().copied(), may_split),
@@ -141,7 +162,9 @@ impl<'a, V: Vector> Integral<'a, V> {
         let critical = longest(cell, fans(self.b), blockers.clone());
         let center = cell[0].lerp(cell[1].lerp(cell[2], V::Scalar::from_f64(0.5)), V::Scalar::from_f64(2.0 / 3.0));
         let weight = share * seen(center, self.normal, self.b, core::iter::empty());
-        let apart = |critical: Option<Critical<V>>| critical.map_or_else(|| bisect(cell), |at| split(cell, &at));
+        let apart = |critical: Option<Critical<V>>| {
+            critical.map_or_else(|| heapless::Vec::from_iter(halves(cell)), |at| split(cell, &at))
+        };
         if critical.is_some() && weight > self.accuracy * V::Scalar::from_f64(HEAVY) && may_split {
             return Step::Split(apart(critical));
         }
@@ -204,19 +227,4 @@ fn split<V: Vector>(cell: &[V; 3], critical: &Critical<V>) -> heapless::Vec<[V; 
         }
     }
     parts
-}
-
-/// The halves of a triangle, cut across its longest edge.
-fn bisect<V: Vector>(cell: &[V; 3]) -> heapless::Vec<[V; 3], 3> {
-    let [a, b, c] = *cell;
-    let lengths = [(b - a).length_squared(), (c - b).length_squared(), (a - c).length_squared()];
-    let [a, b, c] = if lengths[0] >= lengths[1].max(lengths[2]) {
-        [a, b, c]
-    } else if lengths[1] >= lengths[2] {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    };
-    let middle = a.lerp(b, V::Scalar::from_f64(0.5));
-    heapless::Vec::from_iter([[a, middle, c], [middle, b, c]])
 }

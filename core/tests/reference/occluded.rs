@@ -94,7 +94,7 @@ const ROOM_INNER: &[&[Point]] = &[&wall([1.0, 3.0], [1.0, 1.0]), &wall([1.0, 1.0
 pub const PAIRS: &[OccludedPair] = &[
     unit_squares("squares, blocker half way", MIDDLE, 0.099_506_294_598_98, 1e-10),
     unit_squares("squares, blocker half way, without it", &[], UNOCCLUDED, 1e-10),
-    unit_squares("View3D's squares", CORNER, 0.149_868_67, 1e-8),
+    unit_squares("View3D's squares", CORNER, 0.75 * UNOCCLUDED, 1e-10),
     unit_squares("View3D's squares, without the blocker", &[], UNOCCLUDED, 1e-10),
     unit_squares("squares, blocker near the receiver", NEAR_RECEIVER, 0.133_488_790_916_4, 1e-10),
     unit_squares("squares, blocker near the receiver, without it", &[], UNOCCLUDED, 1e-10),
@@ -132,16 +132,16 @@ pub const PAIRS: &[OccludedPair] = &[
         a: ROOM_SOUTH,
         b: ROOM_NORTH_END,
         blockers: ROOM_INNER,
-        factor: 0.032_890_25,
-        tolerance: 1e-8,
+        factor: 0.032_890_247_563_1,
+        tolerance: 1e-10,
     },
     OccludedPair {
         name: "L-shaped room, the other wall and the other end",
         a: ROOM_WEST,
         b: ROOM_EAST_END,
         blockers: ROOM_INNER,
-        factor: 0.032_890_25,
-        tolerance: 1e-8,
+        factor: 0.032_890_247_563_1,
+        tolerance: 1e-10,
     },
     // A piece of an endless strip sees as much of another endless strip as the whole.
     OccludedPair {
