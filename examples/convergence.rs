@@ -3,6 +3,7 @@
 //! The room is a closed cube whose ceiling has a lamp in its middle; all patches have the same reflectance.
 
 use std::error::Error;
+use std::fs;
 
 use glam::DVec3;
 use plotters::prelude::*;
@@ -17,6 +18,13 @@ const TOLERANCE: f64 = 1e-6;
 const NAMES: [&str; 6] = ["Jacobi", "Gauss-Seidel", "over-relaxation", "shooting", "Chebyshev", "conjugate gradients"];
 
 fn main() -> Result<(), Box<dyn Error>> {
+    fs::write(FILE, picture()?)?;
+    println!("{FILE} shows it; dashed is what theory says of Jacobi and of Chebyshev");
+    Ok(())
+}
+
+/// Solves, prints and draws.
+pub fn picture() -> Result<String, Box<dyn Error>> {
     let factors = form_factors(&patches());
     println!("{COUNT} patches; sweeps until the error is at most {TOLERANCE:e} of the brightest patch");
     println!("{:>5} {}", "rho", NAMES.map(|name| format!("{name:>22}")).concat());
@@ -27,7 +35,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{rho:5} {}", sweeps.map(|sweeps| format!("{sweeps:22.1}")).concat());
         curves.iter_mut().zip(sweeps).for_each(|(curve, sweeps)| curve.push((rho, sweeps)));
     }
-    draw(&curves)
+    let mut svg = String::new();
+    draw(&curves, &mut svg)?;
+    Ok(svg)
 }
 
 /// The squares of the six faces, counter-clockwise seen from inside; first the ceiling.
@@ -83,8 +93,8 @@ fn theory(rho: f64) -> [f64; 2] {
     [TOLERANCE.ln() / rho.ln(), (2.0 / TOLERANCE).ln() / ((1.0 + root) / rho).ln()]
 }
 
-fn draw(curves: &[Vec<(f64, f64)>; 6]) -> Result<(), Box<dyn Error>> {
-    let root = SVGBackend::new(FILE, (720, 440)).into_drawing_area();
+fn draw(curves: &[Vec<(f64, f64)>; 6], svg: &mut String) -> Result<(), Box<dyn Error>> {
+    let root = SVGBackend::with_string(svg, (720, 440)).into_drawing_area();
     root.fill(&WHITE)?;
     let mut chart = ChartBuilder::on(&root)
         .margin(12)
@@ -116,7 +126,5 @@ fn draw(curves: &[Vec<(f64, f64)>; 6]) -> Result<(), Box<dyn Error>> {
         .background_style(WHITE)
         .border_style(BLACK.mix(0.3))
         .draw()?;
-    root.present()?;
-    println!("{FILE} shows it; dashed is what theory says of Jacobi and of Chebyshev");
-    Ok(())
+    Ok(root.present()?)
 }

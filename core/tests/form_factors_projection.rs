@@ -364,6 +364,24 @@ fn rays_of_polygons() {
     }
 }
 
+/// Without samples one is taken, whose error nobody knows.
+#[test]
+fn no_samples_count_as_one() {
+    let none = Samples { scrambles: 0, points: 0, seed: 1 };
+    let [from, to] = [up([0.0, 1.0], [0.0, 1.0], 0.0), down([0.0, 1.0], [0.0, 1.0], 1.0)];
+    let (mut rays, mut cubes, mut scratch) =
+        ([Estimate::<f64>::default(); 1], [Estimate::default(); 1], [Estimate::default(); 1]);
+    let triangles: Vec<_> = fan(&to).collect();
+    let corners = single(&from);
+    let bins = nusselt_rays(polygon_sender(&corners), &BruteForce(triangles), |_| Some(0), &none, &mut rays, &mut [0]);
+    assert_eq!((rays[0].value + bins.sky + bins.void, rays[0].error), (1.0, f64::INFINITY));
+    let bins = Buffers::new().hemicube().polygon_row(&from, &[&to], &none, &mut cubes, &mut scratch);
+    assert!(
+        (cubes[0].value + bins.sky + bins.void - 1.0).abs() < 1e-12 && cubes[0].error == f64::INFINITY,
+        "{cubes:?}"
+    );
+}
+
 #[test]
 fn rays_of_round_surfaces() {
     let samples = Samples { scrambles: 16, points: 4096, seed: 4 };

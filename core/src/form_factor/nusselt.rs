@@ -107,6 +107,7 @@ pub fn nusselt_rays<R: Real>(
     row: &mut [Estimate<R>],
     hits: &mut [u32],
 ) -> Bins<R> {
+    let samples = samples.at_least_one();
     let (mut sky, mut void) = (0_u32, 0_u32);
     row.fill(Estimate::default());
     for scramble in 0..samples.scrambles {

@@ -12,15 +12,21 @@ pub const STANDARD_ERRORS: f64 = 4.0;
 /// How many points are taken, in groups that know nothing of each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
-    /// Number of independent Owen scrambles of the Sobol sequence, at least 2; their spread tells the error. Typical: 16.
+    /// Number of independent Owen scrambles of the Sobol sequence; their spread tells the error. Typical: 16. The error of
+    /// one is infinite, and none counts as one.
     pub scrambles: u32,
-    /// Points of each scramble, at least 1; powers of two fill most evenly.
+    /// Points of each scramble; powers of two fill most evenly. None counts as one.
     pub points: u32,
     /// Different seeds give independent results; the same seed gives the same bits.
     pub seed: u32,
 }
 
 impl Samples {
+    /// With one of each at least: the mean of nothing is not a number.
+    pub(super) fn at_least_one(&self) -> Self {
+        Self { scrambles: self.scrambles.max(1), points: self.points.max(1), ..*self }
+    }
+
     /// The sequence of one scramble.
     pub(super) fn sequence(&self, scramble: u32) -> Sobol {
         Sobol::new(hash(self.seed, scramble))

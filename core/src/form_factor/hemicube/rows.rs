@@ -43,6 +43,7 @@ impl Hemicube<'_> {
         row: &mut [Estimate<V::Scalar>],
         scratch: &mut [Estimate<V::Scalar>],
     ) -> Bins<V::Scalar> {
+        let samples = samples.at_least_one();
         row.fill(Estimate::default());
         let normal = area_vector(polygon.iter().copied()).normalize_or_zero();
         if normal == V::default() {
