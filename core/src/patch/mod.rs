@@ -50,19 +50,19 @@
 //!
 //! | scene | error | elements, uniform | adaptive | ratio | form factors, uniform | adaptive | time, uniform | adaptive |
 //! |---|---|---|---|---|---|---|---|---|
-//! | unit cube | 1.54 % | 384 | 390 | 1.0 | 61440 | 78156 | 0.44 s | 0.75 s |
-//! | unit cube | 1.02 % | 1014 | 561 | 1.8 | 428415 | 164788 | 1.77 s | 1.48 s |
-//! | unit cube | 0.65 % | 2400 | 738 | 3.3 | 2400000 | 286172 | 14.46 s | 3.69 s |
-//! | plates | 7.84 % | 360 | 203 | 1.8 | 14024 | 3343 | 0.14 s | 0.12 s |
-//! | plates | 7.28 % | 874 | 203 | 4.3 | 84705 | 3343 | 0.59 s | 0.13 s |
-//! | plates | 4.68 % | 2192 | 476 | 4.6 | 491008 | 9167 | 3.44 s | 0.30 s |
-//! | room | 8.41 % | 420 | 239 | 1.8 | 49728 | 16288 | 2.15 s | 0.94 s |
-//! | room | 5.87 % | 1004 | 446 | 2.3 | 293243 | 48996 | 9.57 s | 1.81 s |
-//! | room | 5.27 % | 1757 | 446 | 3.9 | 889923 | 48996 | 25.18 s | 0.89 s |
+//! | unit cube | 1.54 % | 384 | 312 | 1.2 | 61440 | 75792 | 0.10 s | 0.29 s |
+//! | unit cube | 1.02 % | 1014 | 447 | 2.3 | 428415 | 139752 | 0.85 s | 0.33 s |
+//! | unit cube | 0.65 % | 2400 | 585 | 4.1 | 2400000 | 229588 | 3.56 s | 0.97 s |
+//! | plates | 7.84 % | 360 | 203 | 1.8 | 14024 | 7341 | 0.12 s | 0.12 s |
+//! | plates | 7.28 % | 874 | 203 | 4.3 | 84705 | 7341 | 0.55 s | 0.11 s |
+//! | plates | 4.68 % | 2192 | 476 | 4.6 | 491008 | 13165 | 3.20 s | 0.22 s |
+//! | room | 8.41 % | 420 | 230 | 1.8 | 49728 | 52500 | 0.44 s | 0.49 s |
+//! | room | 5.87 % | 1004 | 338 | 3.0 | 293243 | 71988 | 1.84 s | 0.52 s |
+//! | room | 5.27 % | 1757 | 455 | 3.9 | 889923 | 95024 | 5.66 s | 0.67 s |
 //!
 //! What is gained grows with the accuracy asked for, because only few elements at edges and shadows have to be cut again.
-//! Where the light is smooth everywhere and a coarse picture is enough, as in the first row, nothing is gained: the
-//! uniform grid is as good, and the adaptive one computes some form factors that it throws away.
+//! Where a coarse picture is enough, as in the first rows of the cube and of the room, only elements are gained and no
+//! time: the uniform grid asks for fewer form factors than it takes to probe the first elements and to throw some away.
 //!
 //! The patches of texels that a bake solves on are others: `lightmap::Patches`.
 
