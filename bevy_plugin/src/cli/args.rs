@@ -54,7 +54,7 @@ pub(super) struct Args {
     #[arg(long)]
     pub transport: bool,
 
-    /// Make the lightmaps of a folder anew for other lamps and colors, by its transport.bin
+    /// Make the lightmaps of a folder anew for other lamps and colors, by its transport.bin; its other files stay
     #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "out", "transport"])]
     pub relight: Option<PathBuf>,
 

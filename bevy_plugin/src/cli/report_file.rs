@@ -28,6 +28,7 @@ pub(super) struct ReportFile<'a> {
     seed: u64,
     peak_memory_bytes: u64,
     estimated_memory_bytes: u64,
+    transport_bytes: u64,
     stages: Vec<Stage>,
     closure_error: f32,
     energy_balance: f32,
@@ -90,6 +91,7 @@ impl<'a> ReportFile<'a> {
             seed: report.seed,
             peak_memory_bytes: memory::peak_bytes(),
             estimated_memory_bytes: report.estimated_memory_bytes,
+            transport_bytes: report.transport_bytes,
             stages: report
                 .stages
                 .iter()
