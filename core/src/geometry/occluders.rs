@@ -33,14 +33,19 @@ impl<T: AsRef<[[Vec3; 3]]>> BruteForce<T> {
 
 impl<T: AsRef<[[Vec3; 3]]> + Sync> Occluders for BruteForce<T> {
     fn first(&self, ray: &Ray, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit> {
-        let placed = self.hits(ray).filter_map(|hit| Some((place(&hit)?, hit)));
-        let first = placed.reduce(|first, other| if is_before(&other, &first) { other } else { first });
-        first.map(|(_, hit)| hit)
+        first_of(self.hits(ray), place)
     }
 
     fn any(&self, ray: &Ray, mut stop: impl FnMut(&Hit) -> bool) -> bool {
         self.hits(ray).any(|hit| stop(&hit))
     }
+}
+
+/// The first of some hits by their places; hits without a place do not count.
+pub(super) fn first_of(hits: impl Iterator<Item = Hit>, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit> {
+    let placed = hits.filter_map(|hit| Some((place(&hit)?, hit)));
+    let first = placed.reduce(|first, other| if is_before(&other, &first) { other } else { first });
+    first.map(|(_, hit)| hit)
 }
 
 /// The order of placed hits along a ray.

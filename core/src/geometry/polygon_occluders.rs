@@ -2,7 +2,7 @@
 
 use crate::math::Vector;
 
-use super::occluders::is_before;
+use super::occluders::first_of;
 use super::triangle::ShearedRay;
 use super::{Hit, Occluders, Ray};
 
@@ -35,9 +35,7 @@ fn meet<V: Vector>(polygon: &[V], index: u32, ray: &ShearedRay, end: f32) -> Opt
 
 impl<V: Vector> Occluders for PolygonOccluders<'_, V> {
     fn first(&self, ray: &Ray, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit> {
-        let placed = self.hits(ray).filter_map(|hit| Some((place(&hit)?, hit)));
-        let first = placed.reduce(|first, other| if is_before(&other, &first) { other } else { first });
-        first.map(|(_, hit)| hit)
+        first_of(self.hits(ray), place)
     }
 
     fn any(&self, ray: &Ray, mut stop: impl FnMut(&Hit) -> bool) -> bool {
