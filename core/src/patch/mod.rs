@@ -50,18 +50,18 @@
 //!
 //! | scene | error | elements, uniform | adaptive | ratio | form factors, uniform | adaptive | time, uniform | adaptive |
 //! |---|---|---|---|---|---|---|---|---|
-//! | unit cube | 1.54 % | 384 | 312 | 1.2 | 61440 | 75792 | 0.10 s | 0.29 s |
-//! | unit cube | 1.02 % | 1014 | 447 | 2.3 | 428415 | 139752 | 0.85 s | 0.33 s |
-//! | unit cube | 0.65 % | 2400 | 585 | 4.1 | 2400000 | 229588 | 3.56 s | 0.97 s |
-//! | plates | 7.84 % | 360 | 203 | 1.8 | 14024 | 7341 | 0.12 s | 0.12 s |
-//! | plates | 7.28 % | 874 | 203 | 4.3 | 84705 | 7341 | 0.55 s | 0.11 s |
-//! | plates | 4.68 % | 2192 | 476 | 4.6 | 491008 | 13165 | 3.20 s | 0.22 s |
-//! | room | 8.41 % | 420 | 230 | 1.8 | 49728 | 52500 | 0.44 s | 0.49 s |
-//! | room | 5.87 % | 1004 | 338 | 3.0 | 293243 | 71988 | 1.84 s | 0.52 s |
-//! | room | 5.27 % | 1757 | 455 | 3.9 | 889923 | 95024 | 5.66 s | 0.67 s |
+//! | unit cube | 1.54 % | 384 | 312 | 1.2 | 61440 | 75792 | 0.07 s | 0.13 s |
+//! | unit cube | 1.02 % | 1014 | 447 | 2.3 | 428415 | 139752 | 0.42 s | 0.22 s |
+//! | unit cube | 0.65 % | 2400 | 585 | 4.1 | 2400000 | 229588 | 2.29 s | 0.36 s |
+//! | plates | 7.84 % | 360 | 203 | 1.8 | 14024 | 7341 | 0.03 s | 0.04 s |
+//! | plates | 7.28 % | 874 | 203 | 4.3 | 84705 | 7341 | 0.18 s | 0.05 s |
+//! | plates | 4.68 % | 2192 | 476 | 4.6 | 491008 | 13165 | 1.05 s | 0.07 s |
+//! | room | 8.41 % | 420 | 230 | 1.8 | 49728 | 52500 | 0.32 s | 0.36 s |
+//! | room | 5.87 % | 1004 | 338 | 3.0 | 293243 | 71988 | 1.75 s | 0.51 s |
+//! | room | 5.27 % | 1757 | 455 | 3.9 | 889923 | 95024 | 5.48 s | 0.71 s |
 //!
 //! What is gained grows with the accuracy asked for, because only few elements at edges and shadows have to be cut again.
-//! Where a coarse picture is enough, as in the first rows of the cube and of the room, only elements are gained and no
+//! Where a coarse picture is enough, as in the first row of each scene, only elements are gained and no
 //! time: the uniform grid asks for fewer form factors than it takes to probe the first elements and to throw some away.
 //!
 //! The patches of texels that a bake solves on are others: `lightmap::Patches`.

@@ -62,9 +62,7 @@ impl Solution {
         radiance.resize(direct.len(), Vec3A::ZERO);
         let (mut solver, mut sweeps, mut is_done) = (Chebyshev::new(&system, &mut scratch), 0, false);
         while sweeps < MOST_SWEEPS && !is_done {
-            let error = solver.step(&system, &mut radiance).error;
-            let reflected = radiance.iter().zip(&emission).map(|(radiance, emission)| radiance - emission);
-            is_done = error.cmple(TOLERANCE * reflected.fold(Vec3A::ZERO, Vec3A::max)).all();
+            is_done = is_close(solver.step(&system, &mut radiance).error, &radiance, &emission);
             progress.check()?;
             sweeps += 1;
         }
@@ -92,6 +90,13 @@ impl Solution {
     }
 }
 
+/// Whether an error is small in each band against the brightest light that is reflected: what shines itself, as the sky
+/// does, may be a thousand times brighter than a room, and would hide an error of the room's whole light.
+fn is_close(error: Vec3A, radiance: &[Vec3A], emission: &[Vec3A]) -> bool {
+    let reflected = radiance.iter().zip(emission).map(|(radiance, emission)| radiance - emission);
+    error.cmple(TOLERANCE * reflected.fold(Vec3A::ZERO, Vec3A::max)).all()
+}
+
 /// Rows shared among workers.
 struct Threaded<'a> {
     rows: &'a Rows,
@@ -112,5 +117,19 @@ impl FormFactors for Threaded<'_> {
         if let Ok(sums) = self.workers.map(self.rows.len(), 1024, self.progress, task) {
             received.copy_from_slice(&sums);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A room that reflects 1 under a sky of 100 000: an error of 0.01 is a hundredth of its light.
+    #[test]
+    fn a_bright_sky_hides_no_error() {
+        let [radiance, emission] = [[1.0, 1e5], [0.0, 1e5]].map(|patches| patches.map(Vec3A::splat));
+        assert!(!is_close(Vec3A::splat(0.01), &radiance, &emission));
+        assert!(is_close(Vec3A::splat(0.9 * TOLERANCE), &radiance, &emission));
+        assert!(!is_close(Vec3A::new(0.0, 0.0, 0.01), &radiance, &emission));
     }
 }
