@@ -21,12 +21,13 @@ pub(super) struct Assembly<'a> {
 }
 
 impl Assembly<'_> {
-    /// The finished images: direct and indirect light together, what is missing filled in; and how it was filled.
+    /// The finished images of the texels that are here: direct and indirect light together, what is missing filled in; and how it was filled.
     pub fn images(&self, direct: &[Vec3A], indirect: &[Smooth]) -> Result<(Vec<LightmapImage>, Vec<Fills>), Cancelled> {
-        let finished = self.workers.map(self.texels.sizes.len(), 1, self.progress, |range| {
+        let first = self.texels.here.start;
+        let finished = self.workers.map(self.texels.here.len(), 1, self.progress, |range| {
             range
                 .map(|index| {
-                    let mut image = self.image(index, direct, indirect);
+                    let mut image = self.image(first + index, direct, indirect);
                     dilate(&mut image, self.progress).map(|fills| (image, fills))
                 })
                 .collect()

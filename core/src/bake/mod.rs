@@ -2,10 +2,12 @@
 
 mod assemble;
 mod check;
+mod course;
 mod emitters;
 mod error;
 mod field;
 mod memory;
+mod parts;
 mod pieces;
 mod rays;
 mod report;
@@ -22,20 +24,18 @@ use alloc::vec::Vec;
 use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Occluders, hash, tree};
-use crate::lightmap::{
-    Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels,
-    filter, layout,
-};
+use crate::lightmap::{Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, layout};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
 use crate::scene::{Scene, World};
 use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
-use assemble::Assembly;
+use course::Course;
 use emitters::Lamp;
 use field::Field;
+use memory::{Finished, MemoryPlan};
+use parts::Parts;
 use pieces::Pieces;
 use rays::RayBudget;
-use summary::Done;
 
 /// A finished bake.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,68 +58,96 @@ pub struct Bake {
 /// patches, and rays count the form factors between them; the radiosity equation gives the light of all bounces; each
 /// texel gathers it once.
 ///
+/// Where the texels of all images do not fit into the memory together, the bake goes part by part, a few images at a
+/// time. What lies in another part is seen by its patches then, as if it were far away.
+///
 /// # Errors
 ///
 /// See [`BakeError`]; the text of each says what to do.
 pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
+    let mut images = Vec::new();
+    let mut collect = |index: usize, image: LightmapImage| {
+        images.push((index, image));
+        Ok(())
+    };
+    let bake = run(scene, settings, Finished::Collected, progress, &mut collect)?;
+    images.sort_by_key(|&(index, _)| index);
+    Ok(Bake { images: images.into_iter().map(|(_, image)| image).collect(), ..bake })
+}
+
+/// Bakes as [`bake`] does, but hands over each lightmap with its index as soon as it is finished, so that all of them
+/// need not fit into the memory together. They come in any order; [`Bake::images`] stays empty.
+///
+/// The estimate of the memory leaves room for one image and a copy of it in another form, and for 4096 x 4096 texels of
+/// those before.
+///
+/// # Errors
+///
+/// See [`BakeError`]; where `take` fails the bake is cancelled.
+pub fn bake_into(
+    scene: &Scene,
+    settings: &BakeSettings,
+    progress: &Progress,
+    take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
+) -> Result<Bake, BakeError> {
+    run(scene, settings, Finished::HandedOver, progress, take)
+}
+
+fn run(
+    scene: &Scene,
+    settings: &BakeSettings,
+    finished: Finished,
+    progress: &Progress,
+    take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
+) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
     let budget = RayBudget::new(settings);
     let mut log = Log::new(progress);
 
     log.enter(Stage::Unwrap);
-    let workers = Workers::new(settings.threads);
-    let layout = laid_out(scene, settings, &workers, progress)?;
-    let needed = memory::check(scene, &layout, &budget, settings)?;
+    let workers = &Workers::new(settings.threads);
+    let layout = laid_out(scene, settings, workers, progress)?;
+    let plan = MemoryPlan::new(scene, &layout, &budget, settings, finished)?;
 
     log.enter(Stage::Geometry);
     let world = World::new(scene);
     let blockers = world.corners[..world.blockers].to_vec();
-    let tracer = Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
-    let mut texels = Texels::new(&world, &layout, progress)?;
+    let tracer = &Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
     let seeds = Seeds(settings.seed);
-    let is_valid = check_texels(&mut texels, &tracer, &workers, seeds.of(1), progress)?;
-    let patches = Patches::new(&world, &texels, &is_valid, layout.texels_per_meter, budget.patches);
+    let row_seeds = [seeds.of(1), seeds.of(3)];
+    let mut parts = Parts::new(plan.parts, tracer, &layout, budget.patches, row_seeds, workers, progress)?;
     let (lamps, is_light) = emitters::lamps(&world);
-    let (texels, is_valid, patches, tracer, workers) = (&texels, &is_valid[..], &patches, &tracer, &workers);
-    let pieces = Pieces { tracer, texels, patches, workers, progress, seed: seeds.of(3) };
-    let surfaces = pieces.surfaces(&is_light)?;
-    let baker = Baker { pieces: &pieces, surfaces: &surfaces, is_valid, budget, keep: settings.keep, seeds };
+    let course = Course { lamps: &lamps, is_light: &is_light, lighting: &Lighting::from(scene), settings, budget };
 
     log.enter_after(Stage::Direct, tracer);
-    let lighting = Lighting::from(scene);
-    let (direct, kept) = baker.direct(&lamps, &lighting)?;
+    let (light, lit) = course.direct(&mut parts)?;
 
     log.enter_after(Stage::Transport, tracer);
-    let rows = pieces.rows(budget.row, &surfaces)?;
+    let rows = course.rows(&mut parts)?;
 
     log.enter_after(Stage::Solve, tracer);
-    let solution = Solution::new(&surfaces, &rows, &lighting, &direct, Vec::new(), workers, progress)?;
+    let solution = Solution::of_patches(light, &rows, Vec::new(), workers, progress)?;
 
     log.enter_after(Stage::Gather, tracer);
-    let radiance = surfaces.radiance(&lighting, &direct, &solution, workers, progress)?;
-    let nodes = baker.gather(&direct, &radiance)?;
-    let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
-
-    log.enter_after(Stage::Finish, tracer);
-    let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (images, fills) = assembly.images(&direct, &indirect)?;
-    let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let done = done.report(&layout, &lighting, &direct, &nodes, &indirect);
-    let transport = match settings.keep {
-        Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
-    };
+    let (tally, transport) = course.gather(&mut parts, lit, rows, &solution, &mut log, take)?;
     let report = Report {
-        images: images.len(),
-        texels: images.iter().map(|image| image.texels.len()).sum(),
+        triangles: world.blockers,
+        surfaces: layout.placements.iter().flatten().count(),
+        texels: layout.images.iter().map(|[width, height]| (width * height) as usize).sum(),
+        patches: parts.patches.list.len(),
+        images: layout.images.len(),
+        parts: parts.len(),
+        texels_per_meter: layout.texels_per_meter,
         threads: workers.threads(),
         seed: settings.seed,
-        estimated_memory_bytes: needed,
+        estimated_memory_bytes: plan.needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
+        warnings: [layout.warnings.clone(), summary::warnings(&world, &tally, parts.patches.list.len(), parts.len())]
+            .concat(),
         stages: log.finish(tracer),
-        ..done
+        ..tally.report()
     };
-    Ok(Bake { images, uvs: layout.uvs, placements: layout.placements, transport, report })
+    Ok(Bake { images: Vec::new(), uvs: layout.uvs, placements: layout.placements, transport, report })
 }
 
 fn laid_out(
@@ -205,39 +233,61 @@ impl<O: Occluders> Baker<'_, O> {
 struct Seeds(u64);
 
 impl Seeds {
+    /// Those of a part; the first has the seeds of the bake.
+    fn of_part(self, number: usize) -> Self {
+        Self(self.0.wrapping_add((number as u64) << 32))
+    }
+
     fn of(self, purpose: u32) -> u32 {
         hash(hash(self.0 as u32, (self.0 >> 32) as u32), purpose)
     }
 }
 
-/// The stages as they pass.
+/// The stages as they pass; some pass several times.
 struct Log<'a> {
     progress: &'a Progress,
     stages: Vec<StageReport>,
     start: f64,
+    now: usize,
 }
 
 impl<'a> Log<'a> {
     fn new(progress: &'a Progress) -> Self {
-        Self { progress, stages: Vec::new(), start: progress.seconds() }
+        Self { progress, stages: Vec::new(), start: progress.seconds(), now: 0 }
     }
 
     fn enter(&mut self, stage: Stage) {
         self.close(0);
         self.progress.enter(stage);
-        self.stages.push(StageReport { name: stage.name(), ..StageReport::default() });
+        self.open(stage);
     }
 
     fn enter_after<O: Occluders>(&mut self, stage: Stage, tracer: &Tracer<O>) {
         self.close(tracer.take_count());
         self.progress.enter(stage);
-        self.stages.push(StageReport { name: stage.name(), ..StageReport::default() });
+        self.open(stage);
+    }
+
+    /// Counts for another stage from now on, while who watches sees the one that was entered.
+    fn turn_to<O: Occluders>(&mut self, stage: Stage, tracer: &Tracer<O>) {
+        self.close(tracer.take_count());
+        self.open(stage);
+    }
+
+    fn open(&mut self, stage: Stage) {
+        let name = stage.name();
+        let known = self.stages.iter().position(|report| report.name == name);
+        self.now = known.unwrap_or_else(|| {
+            self.stages.push(StageReport { name, ..StageReport::default() });
+            self.stages.len() - 1
+        });
     }
 
     fn close(&mut self, rays: u64) {
         let now = self.progress.seconds();
-        if let Some(last) = self.stages.last_mut() {
-            (last.seconds, last.rays) = (now - self.start, rays);
+        if let Some(report) = self.stages.get_mut(self.now) {
+            report.seconds += now - self.start;
+            report.rays += rays;
         }
         self.start = now;
     }

@@ -7,50 +7,86 @@ use alloc::vec::Vec;
 use glam::{Vec3, Vec3A};
 
 use super::{EstimatedError, Report};
-use crate::lightmap::{Layout, Nodes, Smooth, Texel, Texels};
+use crate::lightmap::{Nodes, Smooth, Texel, Texels};
 use crate::math;
 use crate::scene::World;
 use crate::transport::{LARGEST_REFLECTANCE, Lighting, Rows, Solution, Surfaces};
 
-/// What a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
+/// What a part of a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
 pub(super) struct Done<'a> {
-    pub world: &'a World<'a>,
     pub texels: &'a Texels,
     pub is_valid: &'a [bool],
     pub surfaces: &'a Surfaces,
     pub solution: &'a Solution,
-    pub rows: &'a Rows,
+}
+
+/// What the parts of a bake say together.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tally {
+    pub valid_texels: usize,
+    pub invalid_texels: usize,
+    pub nodes: usize,
+    /// Patches that would reflect more than anything real does.
+    pub lowered: usize,
+    /// Light of all valid texels, mean over the channels.
+    pub light: f64,
+    pub error: EstimatedError,
+    pub closure_error: f32,
+    pub energy_balance: f32,
+}
+
+impl Tally {
+    /// Of no part yet; what the rows and the solution say of the whole bake.
+    pub fn new(rows: &Rows, energy_balance: f32) -> Self {
+        Self { closure_error: rows.closure_error(), energy_balance, ..Self::default() }
+    }
+
+    /// Takes in what another part says: errors by texels and by light.
+    pub fn add(&mut self, part: &Self) {
+        let share = |own: f64, other: f64| if other > 0.0 { (other / (own + other)) as f32 } else { 0.0 };
+        let by_texels = share(self.valid_texels as f64, part.valid_texels as f64);
+        let squares = [self.error.rms, part.error.rms].map(|rms| rms * rms);
+        let mix = |[own, other]: [f32; 2], share: f32| own * (1.0 - share) + other * share;
+        self.error = EstimatedError {
+            rms: math::sqrt(mix(squares, by_texels)),
+            bias: mix([self.error.bias, part.error.bias], share(self.light, part.light)),
+        };
+        self.valid_texels += part.valid_texels;
+        self.invalid_texels += part.invalid_texels;
+        self.nodes += part.nodes;
+        self.lowered += part.lowered;
+        self.light += part.light;
+    }
+
+    /// The lines of the report that are known here.
+    pub fn report(&self) -> Report {
+        Report {
+            valid_texels: self.valid_texels,
+            invalid_texels: self.invalid_texels,
+            nodes: self.nodes,
+            closure_error: self.closure_error,
+            energy_balance: self.energy_balance,
+            estimated_error: self.error,
+            ..Report::default()
+        }
+    }
 }
 
 impl Done<'_> {
-    /// All that these say.
-    pub fn report(
-        &self,
-        layout: &Layout,
-        lighting: &Lighting,
-        direct: &[Vec3A],
-        nodes: &Nodes,
-        indirect: &[Smooth],
-    ) -> Report {
+    /// What this part says.
+    pub fn tally(&self, lighting: &Lighting, direct: &[Vec3A], nodes: &Nodes, indirect: &[Smooth]) -> Tally {
         let valid_texels = self.valid().count();
         let lights = direct.iter().zip(indirect);
         let total: Vec<f32> =
             lights.map(|(direct, indirect)| (Vec3::from(*direct) + indirect.irradiance).element_sum() / 3.0).collect();
-        let mut warnings = layout.warnings.clone();
-        warnings.extend(self.warnings(lighting, &total));
-        Report {
-            triangles: self.world.blockers,
-            surfaces: layout.placements.iter().flatten().count(),
+        Tally {
             valid_texels,
             invalid_texels: self.is_valid.len() - valid_texels,
-            patches: self.surfaces.areas.len(),
             nodes: nodes.gathered.iter().filter(|node| node.rays > 0).count(),
-            texels_per_meter: layout.texels_per_meter,
-            closure_error: self.rows.closure_error(),
-            energy_balance: self.solution.energy_balance(self.surfaces, self.rows),
-            estimated_error: self.estimated_error(&total, indirect),
-            warnings,
-            ..Report::default()
+            lowered: self.surfaces.count_lowered(lighting),
+            light: self.valid().map(|index| f64::from(total[index])).sum(),
+            error: self.estimated_error(&total, indirect),
+            ..Tally::default()
         }
     }
 
@@ -102,27 +138,31 @@ impl Done<'_> {
         };
         squared(at(-1, 0), at(1, 0)) + squared(at(0, -1), at(0, 1))
     }
+}
 
-    /// What the user should know about the scene.
-    fn warnings(&self, lighting: &Lighting, total: &[f32]) -> Vec<String> {
-        let mut warnings = Vec::new();
-        for broken in self.world.not_finite.chunk_by(|a, b| a.surface == b.surface) {
-            warnings.push(format!(
-                "{} triangles of \"{}\" have a corner that is not finite (NaN or infinite) and were left out; mend its mesh",
-                broken.len(),
-                self.world.scene.surfaces[broken[0].surface as usize].name
-            ));
-        }
-        if total.iter().all(|&light| light == 0.0) {
-            warnings.push(String::from("every texel is black: no light reaches a surface with a lightmap"));
-        }
-        let lowered = self.surfaces.count_lowered(lighting);
-        if lowered > 0 {
-            warnings.push(format!(
-                "{lowered} of {} patches reflect more than {LARGEST_REFLECTANCE} and were taken to reflect that; lower the base color of their materials",
-                self.surfaces.areas.len(),
-            ));
-        }
-        warnings
+/// What the user should know about the scene and how it was baked.
+pub(super) fn warnings(world: &World, tally: &Tally, patches: usize, parts: usize) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for broken in world.not_finite.chunk_by(|a, b| a.surface == b.surface) {
+        warnings.push(format!(
+            "{} triangles of \"{}\" have a corner that is not finite (NaN or infinite) and were left out; mend its mesh",
+            broken.len(),
+            world.scene.surfaces[broken[0].surface as usize].name
+        ));
     }
+    if tally.light == 0.0 {
+        warnings.push(String::from("every texel is black: no light reaches a surface with a lightmap"));
+    }
+    let lowered = tally.lowered;
+    if lowered > 0 {
+        warnings.push(format!(
+            "{lowered} of {patches} patches reflect more than {LARGEST_REFLECTANCE} and were taken to reflect that; lower the base color of their materials",
+        ));
+    }
+    if parts > 1 {
+        warnings.push(format!(
+            "the images did not fit into the memory together and were baked in {parts} parts: where surfaces in different parts lie close together, their light on each other is as coarse as patches of 8 x 8 texels; allow more memory to bake them at once"
+        ));
+    }
+    warnings
 }
