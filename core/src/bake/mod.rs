@@ -4,6 +4,7 @@ mod assemble;
 mod check;
 mod emitters;
 mod error;
+mod estimate;
 mod field;
 mod memory;
 mod pieces;
@@ -32,6 +33,7 @@ use crate::scene::{Scene, World};
 use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
 use assemble::Assembly;
 use emitters::Lamp;
+use estimate::Estimate;
 use field::Field;
 use pieces::Pieces;
 use rays::RayBudget;
@@ -101,10 +103,11 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
 
     log.enter_after(Stage::Finish, tracer);
+    let estimate = Estimate::new(texels, is_valid, &direct, &indirect);
     let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (images, fills) = assembly.images(&direct, &indirect)?;
+    let (images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
     let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let done = done.report(&layout, &lighting, &direct, &nodes, &indirect);
+    let done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
         Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
