@@ -22,7 +22,7 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::geometry::{Occluders, hash, tree};
+use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
 use crate::lightmap::{
     Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels,
     filter, layout,
@@ -64,6 +64,20 @@ pub struct Bake {
 ///
 /// See [`BakeError`]; the text of each says what to do.
 pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
+    bake_logged(scene, settings, progress, &NoLog)
+}
+
+/// Bakes as [`bake`] does and hands every ray to `ray_log`: to trace the same rays elsewhere.
+///
+/// # Errors
+///
+/// Those of [`bake`].
+pub fn bake_logged(
+    scene: &Scene,
+    settings: &BakeSettings,
+    progress: &Progress,
+    ray_log: &impl RayLog,
+) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
     let budget = RayBudget::new(settings);
     let mut log = Log::new(progress);
@@ -76,7 +90,8 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter(Stage::Geometry);
     let world = World::new(scene);
     let blockers = world.corners[..world.blockers].to_vec();
-    let tracer = Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
+    let occluders = workers.run_apart(progress, || tree(blockers))?;
+    let tracer = Tracer::new(&world, Logged { occluders, log: ray_log });
     let mut texels = Texels::new(&world, &layout, progress)?;
     let seeds = Seeds(settings.seed);
     let is_valid = check_texels(&mut texels, &tracer, &workers, seeds.of(1), progress)?;
