@@ -23,8 +23,8 @@ use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Occluders, hash, tree};
 use crate::lightmap::{
-    Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels,
-    filter, layout,
+    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels,
+    check as check_texels, filter, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -87,7 +87,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
 
     log.enter_after(Stage::Direct, tracer);
     let lighting = Lighting::from(scene);
-    let (direct, kept) = baker.direct(&lamps, &lighting)?;
+    let (direct, direct_errors, kept) = baker.direct(&lamps, &lighting)?;
 
     log.enter_after(Stage::Transport, tracer);
     let rows = pieces.rows(budget.row, &surfaces)?;
@@ -104,7 +104,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let assembly = Assembly { texels, is_valid, patches, workers, progress };
     let (images, fills) = assembly.images(&direct, &indirect)?;
     let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let done = done.report(&layout, &lighting, &direct, &nodes, &indirect);
+    let done = done.report(&layout, &lighting, (&direct, &direct_errors), &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
         Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
@@ -143,9 +143,14 @@ struct Baker<'a, O> {
 }
 
 impl<O: Occluders> Baker<'_, O> {
-    /// Direct irradiance / pi for each receiver, and what is kept of each lamp.
-    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<(Vec<Vec3A>, Vec<LampLight>), Cancelled> {
+    /// Direct irradiance / pi for each receiver, how far it may be off for each texel, and what is kept of each lamp.
+    fn direct(
+        &self,
+        lamps: &[Lamp],
+        lighting: &Lighting,
+    ) -> Result<(Vec<Vec3A>, Vec<DirectError>, Vec<LampLight>), Cancelled> {
         let mut sum = vec![Vec3A::ZERO; self.surfaces.receivers()];
+        let mut errors = vec![DirectError::default(); self.is_valid.len()];
         let mut kept = Vec::new();
         for (index, lamp) in lamps.iter().enumerate() {
             self.pieces.progress.enter_part(index, lamps.len());
@@ -154,24 +159,35 @@ impl<O: Occluders> Baker<'_, O> {
                 continue;
             }
             let light = self.light(lamp, index)?;
-            sum.iter_mut().zip(&light).for_each(|(sum, light)| *sum += Vec3A::from(strength * *light));
+            for (index, light) in light.iter().enumerate() {
+                let light = light.times(strength);
+                sum[index] += Vec3A::from(light.irradiance);
+                errors.get_mut(index).into_iter().for_each(|error| *error += light.error);
+            }
             match self.keep {
                 Keep::Lightmaps => {}
-                Keep::Transport => kept.extend(LampLight::new(lamp.origin, &light)),
+                Keep::Transport => {
+                    let light: Vec<Vec3> = light.iter().map(|light| light.irradiance).collect();
+                    kept.extend(LampLight::new(lamp.origin, &light));
+                }
             }
         }
-        Ok((sum, kept))
+        Ok((sum, errors, kept))
     }
 
-    /// Irradiance / pi of each receiver from a lamp of strength 1.
-    fn light(&self, lamp: &Lamp, index: usize) -> Result<Vec<Vec3>, Cancelled> {
+    /// Light of each receiver from a lamp of strength 1.
+    fn light(&self, lamp: &Lamp, index: usize) -> Result<Vec<DirectTexel>, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
         let seed = hash(self.seeds.of(2), index as u32);
         let direct = Direct { texels, is_valid: self.is_valid, tracer, rays: self.budget.shadow, seed };
         let mut light = direct.light(&lamp.light, workers, progress)?;
         let bare = &self.surfaces.bare;
         light.extend(workers.map(bare.len(), 64, progress, |range| {
-            bare[range].iter().map(|&patch| self.pieces.direct_on(patch, &lamp.light)).collect()
+            let on = |&patch: &u32| DirectTexel {
+                irradiance: self.pieces.direct_on(patch, &lamp.light),
+                ..DirectTexel::default()
+            };
+            bare[range].iter().map(on).collect()
         })?);
         Ok(light)
     }

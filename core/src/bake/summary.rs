@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use glam::{Vec3, Vec3A};
 
 use super::{EstimatedError, Report};
-use crate::lightmap::{Layout, Nodes, Smooth, Texel, Texels};
+use crate::lightmap::{DirectError, Layout, Nodes, Smooth, Texel, Texels};
 use crate::math;
 use crate::scene::World;
 use crate::transport::{LARGEST_REFLECTANCE, Lighting, Rows, Solution, Surfaces};
@@ -28,7 +28,7 @@ impl Done<'_> {
         &self,
         layout: &Layout,
         lighting: &Lighting,
-        direct: &[Vec3A],
+        (direct, direct_errors): (&[Vec3A], &[DirectError]),
         nodes: &Nodes,
         indirect: &[Smooth],
     ) -> Report {
@@ -48,7 +48,7 @@ impl Done<'_> {
             texels_per_meter: layout.texels_per_meter,
             closure_error: self.rows.closure_error(),
             energy_balance: self.solution.energy_balance(self.surfaces, self.rows),
-            estimated_error: self.estimated_error(&total, indirect),
+            estimated_error: self.estimated_error(&total, direct_errors, indirect),
             warnings,
             ..Report::default()
         }
@@ -58,13 +58,13 @@ impl Done<'_> {
         (0..self.is_valid.len()).filter(|&index| self.is_valid[index])
     }
 
-    /// Noise from the two halves of the rays, and what lies between texels; bias from what texels gathered against what
+    /// Noise from the two halves of the rays and of penumbrae, and what lies between texels; bias from what texels gathered against what
     /// their patches received.
     ///
     /// Between two texels of a step a lightmap is a ramp: its mean square error is 1/12 of the step squared, which is
     /// 1/24 of the squared second differences of both texels. The patches hold one value for a whole cell, and the
     /// texels see them at the last bounce only: an error of the patches reaches a texel times the reflectance.
-    fn estimated_error(&self, total: &[f32], indirect: &[Smooth]) -> EstimatedError {
+    fn estimated_error(&self, total: &[f32], direct: &[DirectError], indirect: &[Smooth]) -> EstimatedError {
         let count = self.valid().count().max(1) as f64;
         let mean = self.valid().map(|index| f64::from(total[index])).sum::<f64>() / count;
         if mean <= 0.0 {
@@ -73,7 +73,7 @@ impl Done<'_> {
         let relative = |index: usize| {
             let scale = f64::from(total[index]) + 0.1 * mean;
             let between = f64::from(self.squared_second_differences(index, total)) / 24.0;
-            (f64::from(indirect[index].variance) + between) / (scale * scale)
+            (f64::from(indirect[index].variance + direct[index].noise) + between) / (scale * scale)
         };
         let difference = |index: usize| {
             // The black reflects nothing.
