@@ -2,11 +2,13 @@
 
 mod atlas;
 mod blend;
+mod blocks;
 mod chart;
 mod clip;
 mod dilate;
 mod direct;
 mod filter;
+mod footprint;
 mod gather;
 mod image;
 mod layout;

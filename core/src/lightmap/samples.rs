@@ -12,33 +12,42 @@ const NET: f32 = 0.5;
 /// Samples at points of the unit square of which a power of two fills a grid, one in each cell: a `(0, m, 2)` net.
 ///
 /// Their mean is `sum of values / sum of weights`.
+#[derive(Default)]
 pub(super) struct Samples {
-    /// Cells along both axes.
-    columns: u32,
-    rows: u32,
-    /// Cell by cell weight and value; cells along a row are neighbors.
-    cells: Vec<[f32; 2]>,
+    list: Vec<(Vec2, [f32; 2])>,
+    /// Whether cells are columns of the square instead of a grid.
+    layout: Cells,
+}
+
+#[derive(Clone, Copy, Default)]
+enum Cells {
+    #[default]
+    Grid,
+    Columns,
 }
 
 impl Samples {
-    /// None yet of `count` samples, which is taken to the next power of two.
-    pub fn new(count: u32) -> Self {
-        let bits = count.max(1).next_power_of_two().trailing_zeros();
-        let (columns, rows) = (1 << bits.div_ceil(2), 1 << (bits / 2));
-        Self { columns, rows, cells: vec![[0.0; 2]; (columns * rows) as usize] }
+    /// None yet, of which only the first coordinates tell where they belong.
+    pub fn line() -> Self {
+        Self { list: Vec::new(), layout: Cells::Columns }
     }
 
     /// Adds the sample at a point of the unit square.
     pub fn put(&mut self, square: Vec2, weight: f32, value: f32) {
-        let (column, row) = ((square.x * self.columns as f32) as u32, (square.y * self.rows as f32) as u32);
-        let cell = row.min(self.rows - 1) * self.columns + column.min(self.columns - 1);
-        let [weights, values] = &mut self.cells[cell as usize];
-        *weights += weight;
-        *values += value;
+        self.list.push((square, [weight, value]));
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u32 {
+        self.list.len() as u32
+    }
+
+    fn values(&self) -> impl Iterator<Item = [f32; 2]> {
+        self.list.iter().map(|(_, sample)| *sample)
     }
 
     fn sums(&self) -> [f32; 2] {
-        self.cells.iter().fold([0.0; 2], |sums, cell| [sums[0] + cell[0], sums[1] + cell[1]])
+        self.values().fold([0.0; 2], |sums, sample| [sums[0] + sample[0], sums[1] + sample[1]])
     }
 
     /// The sum of the values over that of the weights; 0 without weights.
@@ -57,33 +66,39 @@ impl Samples {
         if weights <= 0.0 {
             return 0.0;
         }
-        let rest = |cell: u32| {
-            let [weight, value] = self.cells[cell as usize];
-            value - mean * weight
+        let bits = self.count().next_power_of_two().trailing_zeros();
+        let (column_bits, factor) = match self.layout {
+            Cells::Grid => (bits.div_ceil(2), NET),
+            Cells::Columns => (bits, 1.0),
         };
-        let squares = |step: u32, first: &dyn Fn(u32) -> u32| {
-            let pairs = (0..self.cells.len() as u32 / 2).map(|pair| (rest(first(pair)), rest(first(pair) + step)));
-            pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f32>()
+        let (columns, rows) = (1_usize << column_bits, 1_usize << (bits - column_bits));
+        let mut rests = vec![0.0; columns * rows];
+        for &(square, [weight, value]) in &self.list {
+            let (column, row) = ((square.x * columns as f32) as usize, (square.y * rows as f32) as usize);
+            rests[row.min(rows - 1) * columns + column.min(columns - 1)] += value - mean * weight;
+        }
+        let squares = |step: usize, first: &dyn Fn(usize) -> usize| {
+            let pairs = (0..rests.len() / 2).map(|pair| rests[first(pair)] - rests[first(pair) + step]);
+            pairs.map(|difference| difference * difference).sum::<f32>()
         };
-        let columns = self.columns;
         let along_rows = squares(1, &|pair| 2 * pair);
-        let along_columns = match self.rows {
+        let along_columns = match rows {
             1 => along_rows,
             _ => squares(columns, &|pair| pair / columns * 2 * columns + pair % columns),
         };
-        NET * along_rows.min(along_columns) / (weights * weights)
+        factor * along_rows.min(along_columns) / (weights * weights)
     }
 
     /// Variance of the values themselves around their mean, all of the same weight.
     pub fn spread(&self) -> f32 {
         let mean = self.mean();
-        let squares = self.cells.iter().map(|&[weight, value]| (value - mean * weight) * (value - mean * weight));
-        squares.sum::<f32>() / (self.cells.len() - 1).max(1) as f32
+        let squares = self.values().map(|[weight, value]| (value - mean * weight) * (value - mean * weight));
+        squares.sum::<f32>() / self.list.len().saturating_sub(1).max(1) as f32
     }
 
     /// The least value.
     pub fn least(&self) -> f32 {
-        self.cells.iter().map(|cell| cell[1]).fold(f32::INFINITY, f32::min)
+        self.values().map(|[_, value]| value).fold(f32::INFINITY, f32::min)
     }
 }
 
@@ -101,7 +116,7 @@ mod tests {
             for (slope, share) in [(0.2, 0.47), (0.7, 0.5), (1.0, 0.5), (-0.4, 0.62)] {
                 let (mut claimed, mut made) = (0.0, 0.0);
                 for seed in 0..SEEDS {
-                    let (sequence, mut samples) = (Sobol::new(seed), Samples::new(count));
+                    let (sequence, mut samples) = (Sobol::new(seed), Samples::default());
                     for square in (0..count).map(|k| sequence.square(k)) {
                         let is_lit = square.x + slope * (square.y - 0.5) < share;
                         samples.put(square, 1.0, if is_lit { 1.0 } else { 0.0 });
@@ -118,7 +133,7 @@ mod tests {
     /// What is the same everywhere is certain; two values of the same share are half their distance from their mean.
     #[test]
     fn spread_and_least() {
-        let (mut same, mut halves) = (Samples::new(16), Samples::new(16));
+        let (mut same, mut halves) = (Samples::default(), Samples::default());
         let sequence = Sobol::new(5);
         for square in (0..16).map(|k| sequence.square(k)) {
             same.put(square, 0.5, 0.25);
