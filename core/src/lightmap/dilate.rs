@@ -9,6 +9,9 @@ use crate::transport::{Fills, NEIGHBORS};
 /// Rounds around the charts: the gutter, and what block compression mixes in.
 const GUTTER: usize = 4;
 
+/// Of [`NEIGHBORS`]: those that share a side.
+const BESIDE: u8 = 0b0101_1010;
+
 /// Fills invalid texels from the valid ones of their chart, then the gutters from all; returns how, for other light.
 ///
 /// # Errors
@@ -73,12 +76,14 @@ impl Filling<'_> {
         ring.into_iter().map(|(at, _)| at).collect()
     }
 
-    /// The known texels around one, a bit each.
+    /// The known texels beside one, a bit each; those at its corners where there are no others. A mean with those at the
+    /// corners would smear what lies along the border of a chart.
     fn sources(&self, at: usize, same_chart: bool) -> u8 {
         let charts = &self.image.charts;
         let is_source =
             |&(_, other): &(usize, usize)| self.known[other] && (!same_chart || charts[other] == charts[at]);
-        neighbors(self.image, at).filter(is_source).map(|(k, _)| 1 << k).sum()
+        let all: u8 = neighbors(self.image, at).filter(is_source).map(|(k, _)| 1 << k).sum();
+        if all & BESIDE != 0 { all & BESIDE } else { all }
     }
 }
 
