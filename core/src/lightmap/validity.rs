@@ -119,7 +119,7 @@ impl<'a, O: Occluders> Square<'a, O> {
     fn pushed_out(&self) -> Vec3 {
         let position = self.texel.position;
         let arms = [self.steps[0], -self.steps[0], self.steps[1], -self.steps[1]];
-        let hits = arms.map(|arm| self.meet(position, arm, 0.5));
+        let hits = arms.map(|arm| self.meet(position, arm, HALF));
         let backs = arms.iter().zip(hits).filter_map(|(&arm, (distance, is_back))| is_back.then_some((arm, distance)));
         let beyond = backs.map(|(arm, distance)| (arm, distance, self.beyond(arm, distance)));
         let nearest = beyond.min_by(|a, b| a.1.total_cmp(&b.1));
@@ -130,7 +130,7 @@ impl<'a, O: Occluders> Square<'a, O> {
             let step = self.steps[axis] * CLEARANCE;
             let is_clear = is_free(self.tracer, self.lifted(position - step), self.lifted(position + step));
             let (ahead, behind) = (hits[2 * axis].0, hits[2 * axis + 1].0);
-            if is_clear || ahead.min(behind) > 2.0 * CLEARANCE && ahead < 0.5 {
+            if is_clear || ahead.min(behind) > 2.0 * CLEARANCE && ahead < HALF {
                 position
             } else if ahead < behind {
                 position - step
@@ -153,7 +153,7 @@ impl<'a, O: Occluders> Square<'a, O> {
     /// Where an arm that leaves through a wall meets the next one, or the border of the texel.
     fn beyond(&self, arm: Vec3, distance: f32) -> f32 {
         let start = distance + 4.0 * self.tracer.world.lift(self.texel.triangle) / arm.length();
-        let rest = (0.5 - start).max(0.0);
+        let rest = (HALF - start).max(0.0);
         start + self.meet(self.texel.position + arm * start, arm, rest).0.min(rest)
     }
 
