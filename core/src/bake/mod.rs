@@ -200,7 +200,7 @@ impl<O: Occluders> Baker<'_, O> {
     fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A]) -> Result<Nodes, Cancelled> {
         let Pieces { tracer, texels, patches, workers, progress, .. } = *self.pieces;
         let spread = self.budget.spread();
-        let field = Field { world: tracer.world, texels, patches, surfaces: self.surfaces, spread };
+        let field = Field { tracer, texels, patches, surfaces: self.surfaces, spread };
         let gather = Gather {
             texels,
             is_valid: self.is_valid,
