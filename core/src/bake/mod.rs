@@ -23,7 +23,7 @@ use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Occluders, hash, tree};
 use crate::lightmap::{
-    Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels,
+    Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Seams, Texels, check as check_texels,
     filter, layout,
 };
 use crate::parallel::Workers;
@@ -102,12 +102,14 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
 
     log.enter_after(Stage::Finish, tracer);
     let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (images, fills) = assembly.images(&direct, &indirect)?;
+    let (mut images, fills) = assembly.images(&direct, &indirect)?;
+    let seams = Seams::new(texels, is_valid, tracer, workers, progress)?;
+    let seam_report = seams.solve(&mut images, workers, progress)?;
     let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
     let done = done.report(&layout, &lighting, &direct, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?),
     };
     let report = Report {
         images: images.len(),
@@ -116,6 +118,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
         seed: settings.seed,
         estimated_memory_bytes: needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
+        seams: seam_report,
         stages: log.finish(tracer),
         ..done
     };

@@ -13,6 +13,7 @@ mod layout;
 mod overlap;
 mod patches;
 mod plan;
+mod seam;
 mod texel;
 mod tile;
 #[cfg(feature = "unwrap")]
@@ -30,5 +31,6 @@ pub use gather::*;
 pub use image::*;
 pub use layout::*;
 pub use patches::*;
+pub use seam::*;
 pub use texel::*;
 pub use validity::*;
