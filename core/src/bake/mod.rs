@@ -4,6 +4,7 @@ mod assemble;
 mod check;
 mod emitters;
 mod error;
+mod estimate;
 mod field;
 mod memory;
 mod pieces;
@@ -21,7 +22,7 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::geometry::{Occluders, hash, tree};
+use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
 use crate::lightmap::{
     Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Seams, Texels, check as check_texels,
     filter, layout,
@@ -32,6 +33,7 @@ use crate::scene::{Scene, World};
 use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
 use assemble::Assembly;
 use emitters::Lamp;
+use estimate::Estimate;
 use field::Field;
 use pieces::Pieces;
 use rays::RayBudget;
@@ -62,6 +64,20 @@ pub struct Bake {
 ///
 /// See [`BakeError`]; the text of each says what to do.
 pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
+    bake_logged(scene, settings, progress, &NoLog)
+}
+
+/// Bakes as [`bake`] does and hands every ray to `ray_log`: to trace the same rays elsewhere.
+///
+/// # Errors
+///
+/// Those of [`bake`].
+pub fn bake_logged(
+    scene: &Scene,
+    settings: &BakeSettings,
+    progress: &Progress,
+    ray_log: &impl RayLog,
+) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
     let budget = RayBudget::new(settings);
     let mut log = Log::new(progress);
@@ -74,7 +90,8 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter(Stage::Geometry);
     let world = World::new(scene);
     let blockers = world.corners[..world.blockers].to_vec();
-    let tracer = Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
+    let occluders = workers.run_apart(progress, || tree(blockers))?;
+    let tracer = Tracer::new(&world, Logged { occluders, log: ray_log });
     let mut texels = Texels::new(&world, &layout, progress)?;
     let seeds = Seeds(settings.seed);
     let is_valid = check_texels(&mut texels, &tracer, &workers, seeds.of(1), progress)?;
@@ -101,12 +118,13 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
 
     log.enter_after(Stage::Finish, tracer);
+    let estimate = Estimate::new(texels, is_valid, &direct, &indirect);
     let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (mut images, fills) = assembly.images(&direct, &indirect)?;
+    let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
     let seams = Seams::new(texels, is_valid, tracer, workers, progress)?;
     let seam_report = seams.solve(&mut images, workers, progress)?;
     let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let done = done.report(&layout, &lighting, &direct, &nodes, &indirect);
+    let done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
         Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?),
