@@ -19,7 +19,7 @@ fn add_lamp(scene: &mut Scene, position: [f32; 3]) {
 /// A room with a lamp and a pillar, without its floor.
 fn hall() -> Scene {
     let mut scene = room([0.0; 3], [3.0, 2.5, 3.0], grey(0.6, 0.0));
-    scene.surfaces.remove(1);
+    scene.surfaces.remove(0);
     scene
 }
 

@@ -216,7 +216,7 @@ fields! {
     Run { start, first }
     StoredImage { width, height, places, fills }
     Fills { width, rings, texels, from }
-    Seams { texels, holds, points, rows }
+    Seams { texels, holds, points, rows, links }
     SeamPoint { sides, weight }
     Sample { upper, lower, right, down }
     Lighting { lamps, materials, sky }

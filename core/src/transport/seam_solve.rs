@@ -17,13 +17,16 @@ const TOLERANCE: f32 = 3e-3;
 const MOST_ITERATIONS: usize = 60;
 /// Rows that are worked on together.
 const CHUNK: usize = 4096;
-/// How stiff the light is across a border of a chart, against seams.
-const BENDING: f32 = 0.02;
+/// How stiff the light is across a border of a chart, against half a texel of a seam.
+const BENDING: f32 = 0.05;
+/// How firmly texels side by side change alike.
+const FADING: f32 = 0.15;
 
-/// The normal equations of the least squares problem of seams: `(S + B + H) x = H x0`.
+/// The normal equations of the least squares problem of seams: `(S + B + L + H) x = (L + H) x0`.
 ///
 /// `x0` is the light of touched texels before, `x` after. `S` asks that both sides of seams agree, `B` that the light
-/// does not bend across borders of charts, and `H` that texels hold their light. All three depend on the geometry only.
+/// does not bend across borders of charts, `L` that what changes fades into the chart, and `H` that texels hold their
+/// light. None of them depends on the light.
 pub struct SeamSolver<'a> {
     seams: &'a Seams,
     /// Where in `entries` each row ends.
@@ -76,6 +79,14 @@ impl<'a> SeamSolver<'a> {
         self.multiply(&directions, &mut unknowns, workers, progress)?;
         for (texel, unknown) in unknowns.iter_mut().enumerate() {
             unknown.residual = unknown.light * self.seams.holds[texel] - unknown.product;
+        }
+        for &[a, b] in &self.seams.links {
+            let [a, b] = [a as usize, b as usize];
+            let pull = FADING * (light[a] - light[b]);
+            unknowns[a].residual += pull;
+            unknowns[b].residual -= pull;
+        }
+        for (texel, unknown) in unknowns.iter().enumerate() {
             directions[texel] = unknown.residual * self.inverse[texel];
         }
         let first = sum(unknowns.iter().zip(&directions).map(|(unknown, direction)| unknown.residual * direction));
@@ -147,10 +158,11 @@ fn quotient(above: DVec3, below: DVec3) -> Vec3A {
     DVec3::select(below.cmpgt(DVec3::ZERO), above / below, DVec3::ZERO).as_vec3a()
 }
 
-/// For each touched texel the points and the rows that use it.
+/// For each touched texel the points, the rows and the links that use it.
 struct Users {
     points: Lists,
     rows: Lists,
+    links: Lists,
 }
 
 impl Users {
@@ -159,6 +171,7 @@ impl Users {
         Self {
             points: Lists::new(seams.touched(), seams.points.len(), of_points),
             rows: Lists::new(seams.touched(), seams.rows.len(), |row| seams.rows[row]),
+            links: Lists::new(seams.touched(), seams.links.len(), |link| seams.links[link]),
         }
     }
 
@@ -172,6 +185,10 @@ impl Users {
         for &index in self.rows.of(texel) {
             let [outside, border, inside] = seams.rows[index as usize];
             add_square(&mut row, texel, &[(outside, 1.0), (border, -2.0), (inside, 1.0)], BENDING);
+        }
+        for &link in self.links.of(texel) {
+            let [a, b] = seams.links[link as usize];
+            add_square(&mut row, texel, &[(a, 1.0), (b, -1.0)], FADING);
         }
         row.sort_by_key(|&(column, _)| column);
         row.dedup_by(|next, kept| {

@@ -17,6 +17,8 @@ pub struct Seams {
     pub points: Vec<SeamPoint>,
     /// Touched texels in a row across a border of a chart: outside, on it, inside.
     pub rows: Vec<[u32; 3]>,
+    /// Touched texels side by side in a chart, which change alike.
+    pub links: Vec<[u32; 2]>,
 }
 
 /// A point of a seam as both sides sample it.
@@ -114,7 +116,7 @@ impl Seams {
 
     /// What they take, in bytes.
     pub fn bytes(&self) -> usize {
-        8 * self.holds.len() + size_of::<SeamPoint>() * self.points.len() + 12 * self.rows.len()
+        8 * self.holds.len() + size_of::<SeamPoint>() * self.points.len() + 12 * self.rows.len() + 8 * self.links.len()
     }
 
     /// Whether all that is named is there: what a file must show. `sizes` are those of the images in texels.
@@ -134,6 +136,6 @@ impl Seams {
             && self.texels.iter().map(Vec::len).sum::<usize>() == count
             && self.holds.iter().all(|hold| (1e-6..=1e6).contains(hold))
             && self.points.iter().all(is_point)
-            && self.rows.as_flattened().iter().all(|&texel| (texel as usize) < count)
+            && self.rows.as_flattened().iter().chain(self.links.as_flattened()).all(|&texel| (texel as usize) < count)
     }
 }

@@ -22,11 +22,16 @@ use matching::{Matching, Meeting};
 pub use crate::transport::Seams;
 
 /// How firmly a texel holds light of its own, against half a texel of a seam.
-const OWN: f32 = 0.05;
+const OWN: f32 = 0.02;
 /// The same of a texel inside geometry, which was filled from its neighbors.
-const FILLED: f32 = 0.01;
+const FILLED: f32 = 0.005;
 /// The same of a texel outside of its chart, which is there for seams.
 const OUTSIDE: f32 = 0.005;
+
+/// How many texels beyond those that seams touch change with them.
+const FADE: usize = 6;
+/// Cosine of the angle, 18 degrees, up to which texels side by side change alike.
+const ALIKE: f32 = 0.95;
 
 /// How far the two sides of seams differ before and after they were solved: |left - right| / (mean of both + a tenth of
 /// the mean light).
@@ -56,6 +61,7 @@ impl Seams {
     pub fn new<O: Occluders>(
         texels: &Texels,
         is_valid: &[bool],
+        errors: &[f32],
         tracer: &Tracer<O>,
         workers: &Workers,
         progress: &Progress,
@@ -68,7 +74,7 @@ impl Seams {
         let meetings: Vec<Meeting> = workers
             .map(edges.len(), 64, progress, |range| range.flat_map(|edge| matching.meetings(edge)).collect())?;
         let t2 = progress.seconds();
-        let seams = Numbering { texels, is_valid }.seams(&meetings);
+        let seams = Numbering { texels, is_valid, errors, tracer, usual: mean_square(errors) }.seams(&meetings, workers, progress)?;
         std::eprintln!("SEAM edges {} {:.3} match {:.3} number {:.3}", edges.len(), t1-t0, t2-t1, progress.seconds()-t2);
         Ok(seams)
     }
@@ -115,16 +121,20 @@ fn mean_light(images: &[LightmapImage]) -> f32 {
 }
 
 /// Gives touched texels their numbers.
-struct Numbering<'a> {
+struct Numbering<'a, O> {
     texels: &'a Texels,
     is_valid: &'a [bool],
+    errors: &'a [f32],
+    /// The mean square of the errors.
+    usual: f32,
+    tracer: &'a Tracer<'a, O>,
 }
 
 /// An image and a texel of it: column and row.
 type Place = (u32, [u32; 2]);
 
-impl Numbering<'_> {
-    fn seams(&self, meetings: &[Meeting]) -> Seams {
+impl<O: Occluders> Numbering<'_, O> {
+    fn seams(&self, meetings: &[Meeting], workers: &Workers, progress: &Progress) -> Result<Seams, Cancelled> {
         let corners: Vec<[(Place, Vec2); 2]> =
             meetings.iter().map(|meeting| meeting.sides.map(|(image, point)| self.corner(image, point))).collect();
         let mut touched: Vec<Place> =
@@ -133,7 +143,18 @@ impl Numbering<'_> {
         let rows: Vec<[Place; 3]> = touched.iter().flat_map(|&place| self.rows(place, &touched)).collect();
         touched.extend(rows.as_flattened());
         sort(&mut touched);
-        let number = |place: Place| touched.binary_search_by_key(&key(place), |&place| key(place)).unwrap_or(0) as u32;
+        let mut ring = touched.clone();
+        for _ in 0..FADE {
+            ring = ring.iter().flat_map(|&place| self.around(place)).collect();
+            sort(&mut ring);
+            ring.retain(|place| find(&touched, *place).is_none());
+            touched.extend(&ring);
+            sort(&mut touched);
+        }
+        let number = |place: Place| find(&touched, place).unwrap_or(0) as u32;
+        let links = workers.map(touched.len(), 1024, progress, |range| {
+            range.flat_map(|texel| self.links(texel as u32, &touched)).collect()
+        })?;
         let sample = |((image, at), share): (Place, Vec2)| {
             let [upper, _, lower, _] = square(at).map(|at| (image, at));
             Sample { upper: number(upper), lower: number(lower), right: share.x, down: share.y }
@@ -144,12 +165,13 @@ impl Numbering<'_> {
         touched.iter().for_each(|&(image, [x, y])| {
             texels[image as usize].push(y * self.texels.sizes[image as usize][0] + x);
         });
-        Seams {
+        Ok(Seams {
             texels,
             holds: touched.iter().map(|&place| self.hold(place)).collect(),
             points: points.collect(),
             rows: rows.iter().map(|row| row.map(number)).collect(),
-        }
+            links,
+        })
     }
 
     /// The upper left of the four texels that are mixed at a point of an image, and the shares of the right and lower.
@@ -166,10 +188,45 @@ impl Numbering<'_> {
 
     fn hold(&self, place: Place) -> f32 {
         match self.texel(place) {
-            Some(texel) if self.is_valid[texel] => OWN,
+            Some(texel) if self.is_valid[texel] => OWN * self.certainty(texel),
             Some(_) => FILLED,
             None => OUTSIDE,
         }
+    }
+
+    /// How much less uncertain a texel is than others, as a ratio of variances.
+    fn certainty(&self, texel: usize) -> f32 {
+        let squared = self.errors[texel] * self.errors[texel];
+        if self.usual > 0.0 { (self.usual / squared).clamp(0.25, 16.0) } else { 1.0 }
+    }
+
+    /// The texels beside one of a chart that belong to it too.
+    fn around(&self, place: Place) -> Vec<Place> {
+        let (image, [x, y]) = place;
+        let Some(texel) = self.texel(place) else { return Vec::new() };
+        let beside = STEPS.map(|[dx, dy]| (image, [x.wrapping_add_signed(dx), y.wrapping_add_signed(dy)]));
+        let is_alike = |other: &Place| self.texel(*other).is_some_and(|other| self.are_alike(texel, other));
+        beside.into_iter().filter(is_alike).collect()
+    }
+
+    fn are_alike(&self, texel: usize, other: usize) -> bool {
+        let [texel, other] = [texel, other].map(|texel| &self.texels.list[texel]);
+        texel.chart == other.chart && texel.normal.dot(other.normal) > ALIKE
+    }
+
+    /// From a touched texel to those right of it and below it, where nothing stands between.
+    fn links(&self, number: u32, touched: &[Place]) -> Vec<[u32; 2]> {
+        let place = touched[number as usize];
+        let Some(texel) = self.texel(place) else { return Vec::new() };
+        let after = self.around(place).into_iter().filter(|other| key(*other) > key(place));
+        let link = |other: Place| {
+            let after = find(touched, other)?;
+            let [from, to] = [texel, self.texel(other)?].map(|texel| &self.texels.list[texel]);
+            let ray = self.tracer.leave(from.triangle, from.position, from.normal, to.position - from.position, 1.0);
+            self.tracer.count(1);
+            (self.tracer.visibility(&ray) > 0.5).then_some([number, after as u32])
+        };
+        after.filter_map(link).collect()
     }
 
     /// From a touched texel outside of a chart the rows of three texels that lead straight into the chart.
@@ -184,11 +241,26 @@ impl Numbering<'_> {
         let row = |direction: [i32; 2]| {
             let [border, inside] = [1, 2].map(|steps| step(steps, direction));
             let [first, second] = [self.texel(border)?, self.texel(inside)?].map(|texel| &self.texels.list[texel]);
-            let is_touched = touched.binary_search_by_key(&key(border), |&place| key(place)).is_ok();
+            let is_touched = find(touched, border).is_some();
             (first.chart == second.chart && is_touched).then_some([place, border, inside])
         };
-        [[1, 0], [-1, 0], [0, 1], [0, -1]].into_iter().filter_map(row).collect()
+        STEPS.into_iter().filter_map(row).collect()
     }
+}
+
+/// Right, left, down and up.
+const STEPS: [[i32; 2]; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
+
+/// The mean of the squares of all errors but those that are zero.
+fn mean_square(errors: &[f32]) -> f32 {
+    let known = errors.iter().filter(|error| **error > 0.0);
+    let (sum, count) = known.fold((0.0_f64, 0_usize), |(sum, count), &error| (sum + f64::from(error * error), count + 1));
+    (sum / count.max(1) as f64) as f32
+}
+
+/// The number of a touched texel.
+fn find(touched: &[Place], place: Place) -> Option<usize> {
+    touched.binary_search_by_key(&key(place), |&place| key(place)).ok()
 }
 
 /// A texel and those right of it, below it, and both.
