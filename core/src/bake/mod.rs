@@ -25,8 +25,8 @@ use glam::{Vec3, Vec3A};
 use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
 use crate::light::Lamps;
 use crate::lightmap::{
-    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels,
-    check as check_texels, filter, layout,
+    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Seams,
+    Texels, check as check_texels, filter, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -121,12 +121,14 @@ pub fn bake_logged(
     log.enter_after(Stage::Finish, tracer);
     let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect);
     let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
+    let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
+    let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
+    let seam_report = seams.solve(&mut images, workers, progress)?;
     let done = Done { world: &world, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
     let done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?),
     };
     let report = Report {
         images: images.len(),
@@ -135,6 +137,7 @@ pub fn bake_logged(
         seed: settings.seed,
         estimated_memory_bytes: needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
+        seams: seam_report,
         stages: log.finish(tracer),
         ..done
     };

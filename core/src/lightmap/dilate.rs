@@ -163,7 +163,7 @@ mod tests {
             texels: [9.0, 7.0, 0.5, 4.0, 7.0, 6.0].map(Vec3::splat).to_vec(),
             states: vec![v, i, v, v, i, v],
             charts: vec![0; 6],
-            patches: vec![NONE; 6],
+            ..Default::default()
         };
         dilate(&mut image, &Progress::with_clock(|| 0.0)).unwrap();
         let values: Vec<f32> = image.texels.iter().map(|texel| texel.x).collect();

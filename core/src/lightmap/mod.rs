@@ -17,6 +17,7 @@ mod overlap;
 mod patches;
 mod plan;
 mod samples;
+mod seam;
 mod texel;
 mod tile;
 #[cfg(feature = "unwrap")]
@@ -35,5 +36,6 @@ pub use image::*;
 pub use layout::*;
 pub use links::*;
 pub use patches::*;
+pub use seam::*;
 pub use texel::*;
 pub use validity::*;
