@@ -4,6 +4,7 @@ mod assemble;
 mod check;
 mod emitters;
 mod error;
+mod estimate;
 mod field;
 mod memory;
 mod pieces;
@@ -21,10 +22,10 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::geometry::{Occluders, hash, tree};
+use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
 use crate::lightmap::{
-    Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels,
-    filter, layout,
+    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels,
+    check as check_texels, filter, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -32,6 +33,7 @@ use crate::scene::{Scene, World};
 use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
 use assemble::Assembly;
 use emitters::Lamp;
+use estimate::Estimate;
 use field::Field;
 use pieces::Pieces;
 use rays::RayBudget;
@@ -62,6 +64,20 @@ pub struct Bake {
 ///
 /// See [`BakeError`]; the text of each says what to do.
 pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
+    bake_logged(scene, settings, progress, &NoLog)
+}
+
+/// Bakes as [`bake`] does and hands every ray to `ray_log`: to trace the same rays elsewhere.
+///
+/// # Errors
+///
+/// Those of [`bake`].
+pub fn bake_logged(
+    scene: &Scene,
+    settings: &BakeSettings,
+    progress: &Progress,
+    ray_log: &impl RayLog,
+) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
     let budget = RayBudget::new(settings);
     let mut log = Log::new(progress);
@@ -74,7 +90,8 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter(Stage::Geometry);
     let world = World::new(scene);
     let blockers = world.corners[..world.blockers].to_vec();
-    let tracer = Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
+    let occluders = workers.run_apart(progress, || tree(blockers))?;
+    let tracer = Tracer::new(&world, Logged { occluders, log: ray_log });
     let mut texels = Texels::new(&world, &layout, progress)?;
     let seeds = Seeds(settings.seed);
     let is_valid = check_texels(&mut texels, &tracer, &workers, seeds.of(1), progress)?;
@@ -87,7 +104,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
 
     log.enter_after(Stage::Direct, tracer);
     let lighting = Lighting::from(scene);
-    let (direct, kept) = baker.direct(&lamps, &lighting)?;
+    let DirectLights { light: direct, errors: direct_errors, kept } = baker.direct(&lamps, &lighting)?;
 
     log.enter_after(Stage::Transport, tracer);
     let rows = pieces.rows(budget.row, &surfaces)?;
@@ -101,10 +118,11 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
 
     log.enter_after(Stage::Finish, tracer);
+    let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect);
     let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (images, fills) = assembly.images(&direct, &indirect)?;
-    let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let done = done.report(&layout, &lighting, &direct, &nodes, &indirect);
+    let (images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
+    let done = Done { world: &world, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
+    let done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
         Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
@@ -132,6 +150,16 @@ fn laid_out(
     if layout.placements.iter().all(Option::is_none) { Err(BakeError::NothingToBake) } else { Ok(layout) }
 }
 
+/// The light of all lamps.
+struct DirectLights {
+    /// Irradiance / pi for each receiver.
+    light: Vec<Vec3A>,
+    /// For each texel how far that may be off.
+    errors: Vec<DirectError>,
+    /// What is kept of each lamp.
+    kept: Vec<LampLight>,
+}
+
 /// The steps that find the light of texels.
 struct Baker<'a, O> {
     pieces: &'a Pieces<'a, O>,
@@ -143,9 +171,9 @@ struct Baker<'a, O> {
 }
 
 impl<O: Occluders> Baker<'_, O> {
-    /// Direct irradiance / pi for each receiver, and what is kept of each lamp.
-    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<(Vec<Vec3A>, Vec<LampLight>), Cancelled> {
+    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<DirectLights, Cancelled> {
         let mut sum = vec![Vec3A::ZERO; self.surfaces.receivers()];
+        let mut errors = vec![DirectError::default(); self.is_valid.len()];
         let mut kept = Vec::new();
         for (index, lamp) in lamps.iter().enumerate() {
             self.pieces.progress.enter_part(index, lamps.len());
@@ -154,24 +182,35 @@ impl<O: Occluders> Baker<'_, O> {
                 continue;
             }
             let light = self.light(lamp, index)?;
-            sum.iter_mut().zip(&light).for_each(|(sum, light)| *sum += Vec3A::from(strength * *light));
+            for (index, light) in light.iter().enumerate() {
+                let light = light.times(strength);
+                sum[index] += Vec3A::from(light.irradiance);
+                errors.get_mut(index).into_iter().for_each(|error| *error += light.error);
+            }
             match self.keep {
                 Keep::Lightmaps => {}
-                Keep::Transport => kept.extend(LampLight::new(lamp.origin, &light)),
+                Keep::Transport => {
+                    let light: Vec<Vec3> = light.iter().map(|light| light.irradiance).collect();
+                    kept.extend(LampLight::new(lamp.origin, &light));
+                }
             }
         }
-        Ok((sum, kept))
+        Ok(DirectLights { light: sum, errors, kept })
     }
 
-    /// Irradiance / pi of each receiver from a lamp of strength 1.
-    fn light(&self, lamp: &Lamp, index: usize) -> Result<Vec<Vec3>, Cancelled> {
+    /// Light of each receiver from a lamp of strength 1.
+    fn light(&self, lamp: &Lamp, index: usize) -> Result<Vec<DirectTexel>, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
         let seed = hash(self.seeds.of(2), index as u32);
         let direct = Direct { texels, is_valid: self.is_valid, tracer, rays: self.budget.shadow, seed };
         let mut light = direct.light(&lamp.light, workers, progress)?;
         let bare = &self.surfaces.bare;
         light.extend(workers.map(bare.len(), 64, progress, |range| {
-            bare[range].iter().map(|&patch| self.pieces.direct_on(patch, &lamp.light)).collect()
+            let on = |&patch: &u32| DirectTexel {
+                irradiance: self.pieces.direct_on(patch, &lamp.light),
+                ..DirectTexel::default()
+            };
+            bare[range].iter().map(on).collect()
         })?);
         Ok(light)
     }

@@ -111,6 +111,7 @@ mod tests {
             states: [v, v, i, v, v, i].into_iter().chain([e; 6]).collect(),
             charts: [0, 0, 0, 1, 1, 1].into_iter().chain([NONE; 6]).collect(),
             patches: vec![NONE; 12],
+            errors: vec![0.0; 12],
         };
         dilate(&mut image, &Progress::with_clock(|| 0.0)).unwrap();
         let values: Vec<f32> = image.texels.iter().map(|texel| texel.x).collect();

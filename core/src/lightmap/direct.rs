@@ -5,6 +5,7 @@ use core::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
+use super::samples::Samples;
 use super::{Texel, Texels, quarter};
 use crate::geometry::{Occluders, Sobol, hash};
 use crate::light::DirectLight;
@@ -25,6 +26,52 @@ pub struct ShadowRays {
 
 /// The light arrives from below the surface: no shadow ray was sent.
 const UNLIT: f32 = -1.0;
+/// No texel gets more shadow rays than this for one light.
+const MOST_RAYS: u32 = 1024;
+
+/// Direct light of a texel, and how far it may be off.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DirectTexel {
+    /// Irradiance / pi, in cd/m2.
+    pub irradiance: Vec3,
+    /// How far that may be off.
+    pub error: DirectError,
+}
+
+/// How far the direct light of a texel may be off. Irradiance / pi is meant, the mean of its channels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DirectError {
+    /// Variance of the value that was found around the mean over the texel, because rays are few: penumbrae.
+    pub noise: f32,
+    /// Variance of the light within the texel, because an edge of a shadow crosses it: what a lookup at a random point
+    /// of the texel misses. No rays make it smaller, only more texels.
+    pub spread: f32,
+    /// The least light within the texel: with the mean `m` the light is about this in a share `spread / (spread +
+    /// (m - darkest)^2)` of the texel and `m + spread / (m - darkest)` in the rest.
+    pub darkest: f32,
+}
+
+impl DirectTexel {
+    /// The same light from a lamp of another strength.
+    pub fn times(&self, strength: Vec3) -> Self {
+        let irradiance = self.irradiance * strength;
+        let level = self.irradiance.element_sum();
+        let factor = if level > 0.0 { irradiance.element_sum() / level } else { 0.0 };
+        let DirectError { noise, spread, darkest } = self.error;
+        let squared = factor * factor;
+        let error = DirectError { noise: noise * squared, spread: spread * squared, darkest: darkest * factor };
+        Self { irradiance, error }
+    }
+}
+
+impl core::ops::AddAssign for DirectError {
+    /// Errors of different lamps do not depend on each other; edges of their shadows lie in different places.
+    fn add_assign(&mut self, other: Self) {
+        self.noise += other.noise;
+        self.spread += other.spread;
+        self.darkest += other.darkest;
+    }
+}
 
 /// All that direct light needs to know.
 pub struct Direct<'a, O> {
@@ -41,23 +88,28 @@ pub struct Direct<'a, O> {
 }
 
 impl<O: Occluders> Direct<'_, O> {
-    /// Irradiance / pi from one light for each texel, zero for those that are not valid.
-    pub fn light(&self, light: &DirectLight, workers: &Workers, progress: &Progress) -> Result<Vec<Vec3>, Cancelled> {
+    /// Light from one lamp for each texel, zero for those that are not valid.
+    pub fn light(
+        &self,
+        light: &DirectLight,
+        workers: &Workers,
+        progress: &Progress,
+    ) -> Result<Vec<DirectTexel>, Cancelled> {
         let count = self.texels.list.len();
         let shares =
             workers.map(count, 512, progress, |range| range.map(|index| self.first_look(light, index)).collect())?;
         let light_of = |index: usize| {
             let share = shares[index];
             if share == UNLIT && !self.has_lit_neighbor(index, &shares) {
-                Vec3::ZERO
+                DirectTexel::default()
             } else if self.is_border(index, &shares) {
                 self.second_look(light, index)
             } else {
                 let Texel { position, normal, .. } = self.texels.list[index];
-                light.irradiance(position, normal) * share.max(0.0)
+                certain(light.irradiance(position, normal) * share.max(0.0))
             }
         };
-        workers.map(count, 512, progress, |range| range.map(|index| light_of(index) / PI).collect())
+        workers.map(count, 512, progress, |range| range.map(light_of).collect())
     }
 
     /// The visible share of the light from the middle of a texel, by few rays, or [`UNLIT`].
@@ -68,50 +120,68 @@ impl<O: Occluders> Direct<'_, O> {
         }
         let rays = if light.is_sharp() { 1 } else { self.rays.first };
         let sequence = Sobol::new(hash(self.seed, index as u32));
-        self.share(light, index, rays, &sequence, |_| position)
+        self.samples(light, index, rays, &sequence, |_| position).mean()
     }
 
-    /// Irradiance by many rays from all over a texel.
-    fn second_look(&self, light: &DirectLight, index: usize) -> Vec3 {
+    /// Light by many rays from all over a texel.
+    fn second_look(&self, light: &DirectLight, index: usize) -> DirectTexel {
         let texel = &self.texels.list[index];
         let points = Footprint::new(texel, self.texels, self.tracer);
         let sequence = Sobol::new(hash(self.seed, index as u32));
         if light.is_sharp() {
-            let rays = self.rays.sharp;
-            let lit = |k: u32| {
-                let point = points.point(&sequence, k);
-                let share = self.share(light, index, 1, &sequence, |_| point);
-                light.irradiance(point, texel.normal) * share
-            };
-            return (0..rays).map(lit).sum::<Vec3>() / rays as f32;
+            self.sharp(light, index, &points, &sequence)
+        } else {
+            let place = |k| points.point(&sequence, k, 2);
+            let samples = self.samples(light, index, self.rays.penumbra.min(MOST_RAYS), &sequence, place);
+            let DirectTexel { irradiance, .. } = certain(light.irradiance(texel.position, texel.normal));
+            let (share, level) = (samples.mean(), irradiance.element_sum() / 3.0);
+            let error = DirectError { noise: level * level * samples.variance(), spread: 0.0, darkest: level * share };
+            DirectTexel { irradiance: irradiance * share, error }
         }
-        let share = self.share(light, index, self.rays.penumbra, &sequence, |k| points.point(&sequence, k));
-        light.irradiance(texel.position, texel.normal) * share
     }
 
-    /// Visible share of the light: the weights of the rays that arrive over the weights of all.
-    fn share(
+    /// Light from a lamp without extent, by rays from all over a texel.
+    fn sharp(&self, light: &DirectLight, index: usize, points: &Footprint, sequence: &Sobol) -> DirectTexel {
+        let texel = &self.texels.list[index];
+        let rays = self.rays.sharp.min(MOST_RAYS);
+        let (mut sum, mut levels) = (Vec3::ZERO, Samples::new(rays));
+        for k in 0..rays {
+            let point = points.point(sequence, k, 0);
+            let share = self.samples(light, index, 1, sequence, |_| point).mean();
+            let lit = light.irradiance(point, texel.normal) * (share / PI);
+            sum += lit;
+            levels.put(sequence.square(k), 1.0, lit.element_sum() / 3.0);
+        }
+        let error = DirectError { noise: levels.variance(), spread: levels.spread(), darkest: levels.least() };
+        DirectTexel { irradiance: sum / rays as f32, error }
+    }
+
+    /// What rays to points of the light find, each with its weight.
+    fn samples(
         &self,
         light: &DirectLight,
         index: usize,
         rays: u32,
         sequence: &Sobol,
         point: impl Fn(u32) -> Vec3,
-    ) -> f32 {
+    ) -> Samples {
         let texel = &self.texels.list[index];
         let flat = self.tracer.world.normals[texel.triangle as usize];
-        let (mut all, mut arrived) = (0.0, 0.0);
+        let mut samples = Samples::new(rays);
         for k in 0..rays {
-            let from = point(k);
-            let ray = light.shadow_ray(sequence.square(k), from, texel.normal);
-            if ray.weight > 0.0 && ray.direction.dot(flat) > 0.0 {
-                let visibility = self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray));
-                arrived += ray.weight * visibility;
+            let (from, square) = (point(k), sequence.square(k));
+            let ray = light.shadow_ray(square, from, texel.normal);
+            let weight = ray.weight.max(0.0);
+            let is_above = weight > 0.0 && ray.direction.dot(flat) > 0.0;
+            let visibility = if is_above {
                 self.tracer.count(1);
-            }
-            all += ray.weight.max(0.0);
+                self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray))
+            } else {
+                0.0
+            };
+            samples.put(square, weight, weight * visibility);
         }
-        if all > 0.0 { arrived / all } else { 0.0 }
+        samples
     }
 
     /// Whether a shadow ends in or beside this texel.
@@ -133,6 +203,13 @@ impl<O: Occluders> Direct<'_, O> {
             (self.texels.list[other].chart == chart && self.is_valid[other]).then_some(other)
         })
     }
+}
+
+/// Light without doubt.
+fn certain(irradiance: Vec3) -> DirectTexel {
+    let irradiance = irradiance / PI;
+    let error = DirectError { darkest: irradiance.element_sum() / 3.0, ..DirectError::default() };
+    DirectTexel { irradiance, error }
 }
 
 /// The points of a texel from which light is looked for.
@@ -160,9 +237,10 @@ impl Footprint {
     }
 
     /// Point `k`: all over a texel that is covered, else one of the middles of its covered quarters, else its own.
-    fn point(&self, sequence: &Sobol, k: u32) -> Vec3 {
+    /// Two dimensions of the sequence are used, from `dimension` on.
+    fn point(&self, sequence: &Sobol, k: u32, dimension: usize) -> Vec3 {
         let offset = match self.covered {
-            4 => Vec2::new(sequence.dimension(k, 2), sequence.dimension(k, 3)) - Vec2::splat(0.5),
+            4 => Vec2::new(sequence.dimension(k, dimension), sequence.dimension(k, dimension + 1)) - Vec2::splat(0.5),
             0 => Vec2::ZERO,
             covered => self.quarters[k as usize % covered],
         };

@@ -13,6 +13,7 @@ mod layout;
 mod overlap;
 mod patches;
 mod plan;
+mod samples;
 mod texel;
 mod tile;
 #[cfg(feature = "unwrap")]
