@@ -6,6 +6,7 @@ mod common;
 use common::*;
 use glam::Vec3;
 use radiosity::bake::{Bake, BakeError, BakeSettings, Keep, Quality, bake, bake_into};
+use radiosity::geometry::NoLog;
 use radiosity::light::{Light, LightSource, PointLight};
 use radiosity::lightmap::{LayoutSettings, TexelState};
 use radiosity::progress::{Cancelled, Progress};
@@ -103,14 +104,14 @@ fn images_are_handed_over() {
         Ok(())
     };
     let progress = Progress::default();
-    let rest = bake_into(&scene, &settings, &progress, &mut take).unwrap();
+    let rest = bake_into(&scene, &settings, &progress, &NoLog, &mut take).unwrap();
     let exact = BakeSettings { memory_bytes: rest.report.estimated_memory_bytes, ..settings.clone() };
     assert!(rest.images.is_empty() && images.iter().all(Option::is_some));
     if rest.report.parts == collected.report.parts {
         assert_eq!(images.into_iter().flatten().collect::<Vec<_>>(), collected.images);
     }
     let mut refuse = |_, _| Err(Cancelled);
-    assert_eq!(bake_into(&scene, &exact, &progress, &mut refuse), Err(BakeError::Cancelled));
+    assert_eq!(bake_into(&scene, &exact, &progress, &NoLog, &mut refuse), Err(BakeError::Cancelled));
 }
 
 /// A transport needs all texels at once.

@@ -2,10 +2,11 @@
 
 mod accessor;
 mod args;
-mod builtin;
 mod document;
 mod error;
+mod export;
 mod exr;
+mod images;
 mod load;
 mod loadable;
 mod memory;
@@ -15,6 +16,7 @@ mod output;
 mod preview;
 mod progress;
 mod prune;
+mod ray_dump;
 mod relight;
 mod report_file;
 mod scene_file;
@@ -30,17 +32,22 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use clap::Parser;
-use radiosity::bake::{Bake, BakeSettings, bake};
-use radiosity::progress::Progress;
+use radiosity::bake::{Bake, BakeSettings, bake_into};
+use radiosity::geometry::{NoLog, RayLog};
+use radiosity::lightmap::LightmapImage;
+use radiosity::progress::{Cancelled, Progress};
 use radiosity::scene::Scene;
 
 pub use self::error::CliError;
+pub use self::export::write_glb;
 
 use self::args::Args;
 use self::document::Document;
+use self::images::Images;
 use self::memory::Budget;
 use self::output::Staging;
 use self::progress::Display;
+use self::ray_dump::RayDump;
 
 /// Set by Ctrl-C.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -113,7 +120,7 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     keep_source(args)?;
     let mut document = match &args.scene {
         Some(path) => Document::read(path)?,
-        None => builtin::cornell_document(),
+        None => export::cornell_document()?,
     };
     let settings = args.settings();
     let hash = write::hash(&document, args, &settings);
@@ -125,15 +132,24 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     for warning in &loaded.collected.warnings {
         eprintln!("warning: {warning}");
     }
-    let staging = Staging::new(&args.out, interrupted)?;
+    let mut staging = Staging::new(&args.out, interrupted)?;
     let memory = Budget::new(settings.memory_bytes)?;
     let settings = BakeSettings { memory_bytes: memory.left(), ..settings };
-    let mut bake = bake_watched(&loaded.collected.scene, &settings, &memory, interrupted)?;
+    let scene = &loaded.collected.scene;
+    let (mut bake, sizes) = match &args.dump_rays {
+        None => bake_watched(scene, &settings, &memory, &NoLog, &mut staging)?,
+        Some(file) => {
+            let dump = RayDump::new(settings.threads)?;
+            let baked = bake_watched(scene, &settings, &memory, &dump, &mut staging)?;
+            dump.write(file)?;
+            baked
+        }
+    };
     bake.report.estimated_memory_bytes += memory.resident;
     for warning in &bake.report.warnings {
         eprintln!("warning: {warning}");
     }
-    let written = write::Written { args, document, loaded, bake, hash, start };
+    let written = write::Written { args, document, loaded, bake, sizes, hash, start };
     written.write(staging)
 }
 
@@ -149,17 +165,26 @@ fn keep_source(args: &Args) -> Result<(), CliError> {
     }
 }
 
-/// Bakes on a thread of its own, shows how far it is, and stops when interrupted.
+/// Bakes on a thread of its own, writes the lightmaps as they come, shows how far it is, and stops when interrupted. The
+/// images of the bake may be smaller than those that are written, whose sizes come with it.
 fn bake_watched(
     scene: &Scene,
     settings: &BakeSettings,
     memory: &Budget,
-    interrupted: &AtomicBool,
-) -> Result<Bake, CliError> {
-    let progress = Progress::default();
+    log: &impl RayLog,
+    staging: &mut Staging,
+) -> Result<(Bake, Vec<[u32; 2]>), CliError> {
+    let (progress, interrupted) = (Progress::default(), staging.interrupted);
+    let (mut images, mut failure) = (Images::default(), None);
+    let mut take = |index: usize, image: LightmapImage| {
+        images.take(index, image, staging).map_err(|error| {
+            failure = Some(error);
+            Cancelled
+        })
+    };
     let mut display = Display::new();
     let result = thread::scope(|scope| {
-        let worker = scope.spawn(|| bake(scene, settings, &progress));
+        let worker = scope.spawn(|| bake_into(scene, settings, &progress, log, &mut take));
         while !worker.is_finished() {
             if interrupted.load(Ordering::Relaxed) {
                 progress.cancel();
@@ -173,8 +198,15 @@ fn bake_watched(
     if interrupted.load(Ordering::Relaxed) {
         return Err(CliError::Cancelled);
     }
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
     match result {
-        Ok(result) => result.map_err(|error| memory.add(error).into()),
+        Ok(result) => {
+            let bake = result.map_err(|error| memory.add(error))?;
+            let (images, sizes) = images.into_kept();
+            Ok((Bake { images, ..bake }, sizes))
+        }
         Err(_) => Err(CliError::new("the bake ended in an error of its own, which is told above; please report it")),
     }
 }

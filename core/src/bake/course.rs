@@ -8,15 +8,17 @@ use glam::Vec3A;
 
 use super::assemble::Assembly;
 use super::emitters::Lamp;
+use super::estimate::Estimate;
 use super::parts::Parts;
 use super::pieces::Pieces;
 use super::rays::RayBudget;
 use super::summary::{Done, Tally};
-use super::{BakeSettings, Baker, Keep, Log, Seeds};
+use super::{BakeSettings, Baker, DirectLights, Keep, Log, Seeds};
 use crate::geometry::Occluders;
-use crate::lightmap::{LightmapImage, filter};
+use crate::lightmap::{DirectError, LightmapImage, Seams, filter};
+use crate::math;
 use crate::progress::{Cancelled, Stage};
-use crate::transport::{Codes, LampLight, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
+use crate::transport::{Codes, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
 
 /// What all passes have to know.
 pub(super) struct Course<'a> {
@@ -28,13 +30,17 @@ pub(super) struct Course<'a> {
     pub budget: RayBudget,
 }
 
-/// The direct light of a part, until it is needed again.
+/// The light of a part that comes straight from the lamps, until it is needed again.
 pub(super) enum Lit {
-    /// Of the only part: what its surfaces do with light, the direct light of its receivers, and what is kept of each
-    /// lamp.
-    Only(Box<Surfaces>, Vec<Vec3A>, Vec<LampLight>),
-    /// Of one of several: the direct light of its texels.
-    OneOf(Codes),
+    /// Of the only part, with what its surfaces do with light.
+    Only(Box<(Surfaces, DirectLights)>),
+    /// Of the texels of one of several parts.
+    OneOf {
+        /// Irradiance / pi.
+        light: Codes,
+        /// The root of [`DirectError::noise`].
+        noise: Codes,
+    },
 }
 
 impl Course<'_> {
@@ -47,19 +53,14 @@ impl Course<'_> {
             let pieces = parts.pieces();
             let surfaces = pieces.surfaces(self.is_light)?;
             let baker = self.baker(&pieces, &surfaces, &parts.is_valid, number);
-            let (direct, kept) = baker.direct(self.lamps, self.lighting)?;
-            let of_part = PatchLight::new(&surfaces, self.lighting, &direct);
+            let direct = baker.direct(self.lamps, self.lighting)?;
+            let of_part = PatchLight::new(&surfaces, self.lighting, &direct.sums);
             if lit.is_empty() {
                 light = of_part;
             } else {
                 light.take_in(&of_part, parts.own());
             }
-            lit.push(if parts.len() == 1 {
-                Lit::Only(Box::new(surfaces), direct, kept)
-            } else {
-                let texels = direct[..parts.texels.list.len()].iter();
-                Lit::OneOf(Codes::new(&texels.flat_map(Vec3A::to_array).collect::<Vec<f32>>()))
-            });
+            lit.push(if parts.len() == 1 { Lit::Only(Box::new((surfaces, direct))) } else { Lit::shortened(&direct) });
         }
         lit.reverse();
         Ok((light, lit))
@@ -97,7 +98,8 @@ impl Course<'_> {
             parts.turn_to(number)?;
             let (pieces, is_valid) = (parts.pieces(), &parts.is_valid[..]);
             let Pieces { texels, patches, workers, progress, .. } = pieces;
-            let (surfaces, direct, kept) = self.recalled(of_part, &pieces)?;
+            let (surfaces, direct) = self.recalled(of_part, &pieces)?;
+            let DirectLights { sums: direct, errors: direct_errors, kept } = direct;
             let radiance = surfaces.radiance(self.lighting, &direct, solution, workers, progress)?;
             let nodes = self.baker(&pieces, &surfaces, is_valid, number).gather(&direct, &radiance)?;
             drop(radiance);
@@ -107,32 +109,37 @@ impl Course<'_> {
             if number == 0 {
                 progress.enter(Stage::Finish);
             }
+            let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect);
             let assembly = Assembly { texels, is_valid, patches, workers, progress };
-            let (images, fills) = assembly.images(&direct, &indirect)?;
-            let done = Done { texels, is_valid, surfaces: &surfaces, solution };
-            tally.add(&done.tally(self.lighting, &direct, &nodes, &indirect));
+            let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
+            let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
+            let seam_report = seams.solve(&mut images, workers, progress)?;
+            let done = Done { is_valid, surfaces: &surfaces, solution };
+            let done = done.tally(self.lighting, &estimate, &nodes, &indirect);
+            tally.add(&Tally { seams: seam_report, ..done });
             for (index, image) in texels.here.clone().zip(images) {
                 take(index, image)?;
             }
             if self.settings.keep == Keep::Transport {
                 let (rows, scene) = (mem::take(&mut rows), tracer.world.scene);
-                transport = Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?);
+                transport = Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?);
             }
         }
         Ok((tally, transport))
     }
 
-    /// What the surfaces of a part do with light, the direct light of its texels, and what was kept of each lamp.
-    fn recalled<O: Occluders>(
-        &self,
-        lit: Lit,
-        pieces: &Pieces<'_, O>,
-    ) -> Result<(Surfaces, Vec<Vec3A>, Vec<LampLight>), Cancelled> {
+    /// What the surfaces of a part do with light, and the direct light of its texels.
+    fn recalled<O: Occluders>(&self, lit: Lit, pieces: &Pieces<'_, O>) -> Result<(Surfaces, DirectLights), Cancelled> {
         match lit {
-            Lit::Only(surfaces, direct, kept) => Ok((*surfaces, direct, kept)),
-            Lit::OneOf(codes) => {
-                let direct = (0..codes.len() / 3).map(|texel| codes.rgb(texel)).collect();
-                Ok((pieces.surfaces(self.is_light)?, direct, Vec::new()))
+            Lit::Only(both) => Ok(*both),
+            Lit::OneOf { light, noise } => {
+                let noise = (0..noise.len()).map(|texel| noise.get(texel));
+                let direct = DirectLights {
+                    sums: (0..light.len() / 3).map(|texel| light.rgb(texel)).collect(),
+                    errors: noise.map(|noise| DirectError { noise: noise * noise, ..Default::default() }).collect(),
+                    kept: Vec::new(),
+                };
+                Ok((pieces.surfaces(self.is_light)?, direct))
             }
         }
     }
@@ -147,5 +154,15 @@ impl Course<'_> {
         let Self { settings, budget, .. } = *self;
         let seeds = Seeds(settings.seed).of_part(number);
         Baker { pieces, surfaces, is_valid, budget, keep: settings.keep, seeds }
+    }
+}
+
+impl Lit {
+    /// In few bytes.
+    fn shortened(direct: &DirectLights) -> Self {
+        let texels = direct.errors.len();
+        let light: Vec<f32> = direct.sums[..texels].iter().flat_map(Vec3A::to_array).collect();
+        let noise: Vec<f32> = direct.errors.iter().map(|error| math::sqrt(error.noise)).collect();
+        Self::OneOf { light: Codes::new(&light), noise: Codes::new(&noise) }
     }
 }

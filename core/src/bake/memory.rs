@@ -13,11 +13,12 @@ use crate::scene::{Receiver, Scene};
 const TRIANGLE: u64 = 220;
 /// For each texel of an image that is being worked on: what covers it, its index, the finished lightmap with its states,
 /// the texel, direct, incident and gathered light, its patch and the lists that make these.
-const TEXEL: u64 = 235;
+const TEXEL: u64 = 259;
 /// For each texel of a finished lightmap.
-const FINISHED: u64 = 25;
-/// For each texel while others are worked on: its patch, whether it is valid, and its direct light.
-const ELSEWHERE: u64 = 8;
+const FINISHED: u64 = 29;
+/// For each texel while others are worked on: its patch, whether it is valid and which walls part it from others, its
+/// direct light and how far that may be off.
+const ELSEWHERE: u64 = 13;
 /// For each patch: itself, its materials, and lists.
 const PATCH: u64 = 190;
 /// For each ray of a row of form factors, if all end on patches of their own.

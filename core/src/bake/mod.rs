@@ -5,6 +5,7 @@ mod check;
 mod course;
 mod emitters;
 mod error;
+mod estimate;
 mod field;
 mod memory;
 mod parts;
@@ -23,8 +24,11 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::geometry::{Occluders, hash, tree};
-use crate::lightmap::{Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, layout};
+use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
+use crate::light::Lamps;
+use crate::lightmap::{
+    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, layout,
+};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
 use crate::scene::{Scene, World};
@@ -70,16 +74,16 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
         images.push((index, image));
         Ok(())
     };
-    let bake = run(scene, settings, Finished::Collected, progress, &mut collect)?;
+    let bake = run(scene, settings, Finished::Collected, progress, &NoLog, &mut collect)?;
     images.sort_by_key(|&(index, _)| index);
     Ok(Bake { images: images.into_iter().map(|(_, image)| image).collect(), ..bake })
 }
 
 /// Bakes as [`bake`] does, but hands over each lightmap with its index as soon as it is finished, so that all of them
-/// need not fit into the memory together. They come in any order; [`Bake::images`] stays empty.
+/// need not fit into the memory together; and hands every ray to `ray_log`, to trace the same rays elsewhere.
 ///
-/// The estimate of the memory leaves room for one image and a copy of it in another form, and for 4096 x 4096 texels of
-/// those before.
+/// Images come in any order; [`Bake::images`] stays empty. The estimate of the memory leaves room for one image and a
+/// copy of it in another form, and for 4096 x 4096 texels of those before.
 ///
 /// # Errors
 ///
@@ -88,9 +92,10 @@ pub fn bake_into(
     scene: &Scene,
     settings: &BakeSettings,
     progress: &Progress,
+    ray_log: &impl RayLog,
     take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
 ) -> Result<Bake, BakeError> {
-    run(scene, settings, Finished::HandedOver, progress, take)
+    run(scene, settings, Finished::HandedOver, progress, ray_log, take)
 }
 
 fn run(
@@ -98,6 +103,7 @@ fn run(
     settings: &BakeSettings,
     finished: Finished,
     progress: &Progress,
+    ray_log: &impl RayLog,
     take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
 ) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
@@ -112,7 +118,8 @@ fn run(
     log.enter(Stage::Geometry);
     let world = World::new(scene);
     let blockers = world.corners[..world.blockers].to_vec();
-    let tracer = &Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
+    let occluders = workers.run_apart(progress, || tree(blockers))?;
+    let tracer = &Tracer::new(&world, Logged { occluders, log: ray_log });
     let seeds = Seeds(settings.seed);
     let row_seeds = [seeds.of(1), seeds.of(3)];
     let mut parts = Parts::new(plan.parts, tracer, &layout, budget.patches, row_seeds, workers, progress)?;
@@ -144,6 +151,7 @@ fn run(
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
         warnings: [layout.warnings.clone(), summary::warnings(&world, &tally, parts.patches.list.len(), parts.len())]
             .concat(),
+        seams: tally.seams,
         stages: log.finish(tracer),
         ..tally.report()
     };
@@ -171,36 +179,37 @@ struct Baker<'a, O> {
 }
 
 impl<O: Occluders> Baker<'_, O> {
-    /// Direct irradiance / pi for each receiver, and what is kept of each lamp.
-    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<(Vec<Vec3A>, Vec<LampLight>), Cancelled> {
-        let mut sum = vec![Vec3A::ZERO; self.surfaces.receivers()];
-        let mut kept = Vec::new();
-        for (index, lamp) in lamps.iter().enumerate() {
-            self.pieces.progress.enter_part(index, lamps.len());
-            let strength = lighting.strength(lamp.origin);
-            if strength == Vec3::ZERO && self.keep == Keep::Lightmaps {
-                continue;
+    /// Direct light of each receiver, how far it may be off for each texel, and what is kept of each lamp.
+    ///
+    /// What is kept is linear in the lamps by its nature, and so is the time that it takes.
+    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<DirectLights, Cancelled> {
+        let mut lights = DirectLights::new(self.surfaces.receivers(), self.is_valid.len());
+        match self.keep {
+            Keep::Lightmaps => {
+                let strong = lamps.iter().map(|lamp| (&lamp.light, lighting.strength(lamp.origin)));
+                lights.add(&self.light(&Lamps::new(strong.collect()), 0)?, Vec3::ONE);
             }
-            let light = self.light(lamp, index)?;
-            sum.iter_mut().zip(&light).for_each(|(sum, light)| *sum += Vec3A::from(strength * *light));
-            match self.keep {
-                Keep::Lightmaps => {}
-                Keep::Transport => kept.extend(LampLight::new(lamp.origin, &light)),
+            Keep::Transport => {
+                for (index, lamp) in lamps.iter().enumerate() {
+                    let light = self.light(&Lamps::new(vec![(&lamp.light, Vec3::ONE)]), index)?;
+                    lights.add(&light, lighting.strength(lamp.origin));
+                    let light: Vec<Vec3> = light.iter().map(|light| light.irradiance).collect();
+                    lights.kept.extend(LampLight::new(lamp.origin, &light));
+                }
             }
         }
-        Ok((sum, kept))
+        Ok(lights)
     }
 
-    /// Irradiance / pi of each receiver from a lamp of strength 1.
-    fn light(&self, lamp: &Lamp, index: usize) -> Result<Vec<Vec3>, Cancelled> {
+    /// Light of each receiver from all of these lamps, of which the first has this index.
+    fn light(&self, lamps: &Lamps, first: usize) -> Result<Vec<DirectTexel>, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
-        let seed = hash(self.seeds.of(2), index as u32);
+        let seed = hash(self.seeds.of(2), first as u32);
         let direct = Direct { texels, is_valid: self.is_valid, tracer, rays: self.budget.shadow, seed };
-        let mut light = direct.light(&lamp.light, workers, progress)?;
+        let mut light = direct.light(lamps, workers, progress)?;
         let bare = &self.surfaces.bare;
-        light.extend(workers.map(bare.len(), 64, progress, |range| {
-            bare[range].iter().map(|&patch| self.pieces.direct_on(patch, &lamp.light)).collect()
-        })?);
+        let on = |&patch: &u32| DirectTexel { irradiance: self.pieces.direct_on(patch, lamps), ..Default::default() };
+        light.extend(workers.map(bare.len(), 64, progress, |range| bare[range].iter().map(on).collect())?);
         Ok(light)
     }
 
@@ -208,7 +217,7 @@ impl<O: Occluders> Baker<'_, O> {
     fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A]) -> Result<Nodes, Cancelled> {
         let Pieces { tracer, texels, patches, workers, progress, .. } = *self.pieces;
         let spread = self.budget.spread();
-        let field = Field { world: tracer.world, texels, patches, surfaces: self.surfaces, spread };
+        let field = Field { tracer, texels, patches, surfaces: self.surfaces, spread };
         let gather = Gather {
             texels,
             is_valid: self.is_valid,
@@ -225,6 +234,29 @@ impl<O: Occluders> Baker<'_, O> {
         let mean = lights.iter().sum::<f32>() / lights.len().max(1) as f32;
         gather.refine(&mut nodes, |texel| lights[texel] + 0.1 * mean, workers, progress)?;
         Ok(nodes)
+    }
+}
+
+/// What comes straight from the lamps.
+struct DirectLights {
+    /// Irradiance / pi for each receiver.
+    sums: Vec<Vec3A>,
+    /// How far that may be off, for each texel.
+    errors: Vec<DirectError>,
+    kept: Vec<LampLight>,
+}
+
+impl DirectLights {
+    fn new(receivers: usize, texels: usize) -> Self {
+        Self { sums: vec![Vec3A::ZERO; receivers], errors: vec![DirectError::default(); texels], kept: Vec::new() }
+    }
+
+    fn add(&mut self, lights: &[DirectTexel], strength: Vec3) {
+        for (index, light) in lights.iter().enumerate() {
+            let light = light.times(strength);
+            self.sums[index] += Vec3A::from(light.irradiance);
+            self.errors.get_mut(index).into_iter().for_each(|error| *error += light.error);
+        }
     }
 }
 

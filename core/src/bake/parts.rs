@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use super::pieces::Pieces;
 use crate::geometry::Occluders;
-use crate::lightmap::{Layout, Patches, Texel, Texels, check};
+use crate::lightmap::{Layout, Links, Patches, Texel, Texels, check};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::transport::Tracer;
@@ -39,6 +39,21 @@ struct Record {
     is_valid: Vec<u8>,
     /// Texels that the check has moved.
     moved: Vec<(u32, Texel)>,
+    links: Links,
+}
+
+impl Record {
+    /// Of texels that are here, with what they were before the check.
+    fn new(patches: Range<usize>, before: &[Texel], texels: &Texels, is_valid: &[bool]) -> Self {
+        let moved = before.iter().zip(&texels.list).enumerate().filter(|(_, (before, after))| before != after);
+        let bits = |eight: &[bool]| eight.iter().enumerate().map(|(k, &bit)| u8::from(bit) << k).sum();
+        Self {
+            patches,
+            is_valid: is_valid.chunks(8).map(bits).collect(),
+            moved: moved.map(|(index, (_, after))| (index as u32, *after)).collect(),
+            links: texels.links.clone(),
+        }
+    }
 }
 
 impl<'a, O: Occluders> Parts<'a, O> {
@@ -80,9 +95,10 @@ impl<'a, O: Occluders> Parts<'a, O> {
         }
         // The memory of the old ones first.
         self.texels = Texels::default();
-        let Record { patches, is_valid, moved } = &self.records[number];
+        let Record { patches, is_valid, moved, links } = &self.records[number];
         self.texels = Texels::new(self.tracer.world, self.layout, self.images[number].clone(), self.progress)?;
         moved.iter().for_each(|&(index, texel)| self.texels.list[index as usize] = texel);
+        self.texels.links = links.clone();
         self.is_valid = (0..self.texels.list.len()).map(|k| is_valid[k / 8] >> (k % 8) & 1 == 1).collect();
         self.patches.turn_to(&self.texels, patches.clone());
         self.number = number;
@@ -106,13 +122,12 @@ impl<'a, O: Occluders> Parts<'a, O> {
         self.texels = Texels::new(world, self.layout, images.clone(), self.progress)?;
         let before = if self.len() > 1 { self.texels.list.clone() } else { Vec::new() };
         self.is_valid = check(&mut self.texels, self.tracer, self.workers, seed, self.progress)?;
-        let moved = before.iter().zip(&self.texels.list).enumerate().filter(|(_, (before, after))| before != after);
-        let moved = moved.map(|(index, (_, after))| (index as u32, *after)).collect();
-        let bits = |eight: &[bool]| eight.iter().enumerate().map(|(k, &bit)| u8::from(bit) << k).sum();
-        let is_valid = self.is_valid.chunks(8).map(bits).collect();
         let wanted = self.share_of(wanted, images);
         let patches = self.patches.add_texels(world, &self.texels, &self.is_valid, wanted);
-        self.records.push(Record { patches, is_valid, moved });
+        self.records.push(match self.len() {
+            1 => Record { patches, ..Record::default() },
+            _ => Record::new(patches, &before, &self.texels, &self.is_valid),
+        });
         self.number = number;
         Ok(())
     }

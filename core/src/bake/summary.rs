@@ -4,17 +4,17 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use glam::{Vec3, Vec3A};
+use glam::Vec3A;
 
+use super::estimate::Estimate;
 use super::{EstimatedError, Report};
-use crate::lightmap::{Nodes, Smooth, Texel, Texels};
+use crate::lightmap::{Nodes, SeamReport, Smooth};
 use crate::math;
 use crate::scene::World;
 use crate::transport::{LARGEST_REFLECTANCE, Lighting, Rows, Solution, Surfaces};
 
 /// What a part of a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
 pub(super) struct Done<'a> {
-    pub texels: &'a Texels,
     pub is_valid: &'a [bool],
     pub surfaces: &'a Surfaces,
     pub solution: &'a Solution,
@@ -31,6 +31,7 @@ pub(super) struct Tally {
     /// Light of all valid texels, mean over the channels.
     pub light: f64,
     pub error: EstimatedError,
+    pub seams: SeamReport,
     pub closure_error: f32,
     pub energy_balance: f32,
 }
@@ -45,11 +46,17 @@ impl Tally {
     pub fn add(&mut self, part: &Self) {
         let share = |own: f64, other: f64| if other > 0.0 { (other / (own + other)) as f32 } else { 0.0 };
         let by_texels = share(self.valid_texels as f64, part.valid_texels as f64);
-        let squares = [self.error.rms, part.error.rms].map(|rms| rms * rms);
-        let mix = |[own, other]: [f32; 2], share: f32| own * (1.0 - share) + other * share;
         self.error = EstimatedError {
-            rms: math::sqrt(mix(squares, by_texels)),
+            rms: mean_root([self.error.rms, part.error.rms], by_texels),
             bias: mix([self.error.bias, part.error.bias], share(self.light, part.light)),
+        };
+        let by_pairs = share(self.seams.pairs as f64, part.seams.pairs as f64);
+        self.seams = SeamReport {
+            pairs: self.seams.pairs + part.seams.pairs,
+            step_before: mean_root([self.seams.step_before, part.seams.step_before], by_pairs),
+            step_after: mean_root([self.seams.step_after, part.seams.step_after], by_pairs),
+            largest_before: self.seams.largest_before.max(part.seams.largest_before),
+            largest_after: self.seams.largest_after.max(part.seams.largest_after),
         };
         self.valid_texels += part.valid_texels;
         self.invalid_texels += part.invalid_texels;
@@ -72,20 +79,27 @@ impl Tally {
     }
 }
 
+/// The mean of two numbers, of which the second has this share.
+fn mix([own, other]: [f32; 2], share: f32) -> f32 {
+    own * (1.0 - share) + other * share
+}
+
+/// The root of the mean of two squares, of which the second has this share.
+fn mean_root(roots: [f32; 2], share: f32) -> f32 {
+    math::sqrt(mix(roots.map(|root| root * root), share))
+}
+
 impl Done<'_> {
     /// What this part says.
-    pub fn tally(&self, lighting: &Lighting, direct: &[Vec3A], nodes: &Nodes, indirect: &[Smooth]) -> Tally {
+    pub fn tally(&self, lighting: &Lighting, estimate: &Estimate, nodes: &Nodes, indirect: &[Smooth]) -> Tally {
         let valid_texels = self.valid().count();
-        let lights = direct.iter().zip(indirect);
-        let total: Vec<f32> =
-            lights.map(|(direct, indirect)| (Vec3::from(*direct) + indirect.irradiance).element_sum() / 3.0).collect();
         Tally {
             valid_texels,
             invalid_texels: self.is_valid.len() - valid_texels,
             nodes: nodes.gathered.iter().filter(|node| node.rays > 0).count(),
             lowered: self.surfaces.count_lowered(lighting),
-            light: self.valid().map(|index| f64::from(total[index])).sum(),
-            error: self.estimated_error(&total, indirect),
+            light: valid_texels as f64 * f64::from(estimate.mean),
+            error: EstimatedError { rms: estimate.rms, bias: self.bias(estimate.mean, indirect) },
             ..Tally::default()
         }
     }
@@ -94,49 +108,20 @@ impl Done<'_> {
         (0..self.is_valid.len()).filter(|&index| self.is_valid[index])
     }
 
-    /// Noise from the two halves of the rays, and what lies between texels; bias from what texels gathered against what
-    /// their patches received.
+    /// What texels gathered against what their patches received, over the mean light.
     ///
-    /// Between two texels of a step a lightmap is a ramp: its mean square error is 1/12 of the step squared, which is
-    /// 1/24 of the squared second differences of both texels. The patches hold one value for a whole cell, and the
-    /// texels see them at the last bounce only: an error of the patches reaches a texel times the reflectance.
-    fn estimated_error(&self, total: &[f32], indirect: &[Smooth]) -> EstimatedError {
-        let count = self.valid().count().max(1) as f64;
-        let mean = self.valid().map(|index| f64::from(total[index])).sum::<f64>() / count;
-        if mean <= 0.0 {
-            return EstimatedError::default();
-        }
-        let relative = |index: usize| {
-            let scale = f64::from(total[index]) + 0.1 * mean;
-            let between = f64::from(self.squared_second_differences(index, total)) / 24.0;
-            (f64::from(indirect[index].variance) + between) / (scale * scale)
-        };
+    /// The patches hold one value for a whole cell, and the texels see them at the last bounce only: an error of the
+    /// patches reaches a texel times the reflectance.
+    fn bias(&self, mean: f32, indirect: &[Smooth]) -> f32 {
         let difference = |index: usize| {
             // The black reflects nothing.
             let patch = self.surfaces.patch_of[index] as usize;
             let difference = self.solution.received[patch] - Vec3A::from(indirect[index].irradiance);
             f64::from((difference * self.solution.reflectance[patch]).element_sum() / 3.0)
         };
-        EstimatedError {
-            rms: math::sqrt((self.valid().map(relative).sum::<f64>() / count) as f32),
-            bias: (self.valid().map(difference).sum::<f64>() / count / mean) as f32,
-        }
-    }
-
-    /// The sum over rows and columns of the squared second difference at a texel, within its chart.
-    fn squared_second_differences(&self, index: usize, total: &[f32]) -> f32 {
-        let Texel { pixel: [x, y], image, chart, .. } = self.texels.list[index];
-        let at = |dx: i32, dy: i32| {
-            let other = self.texels.at_pixel(u32::from(image), i32::from(x) + dx, i32::from(y) + dy)? as usize;
-            (self.is_valid[other] && self.texels.list[other].chart == chart).then(|| total[other])
-        };
-        let squared = |before: Option<f32>, after: Option<f32>| match (before, after) {
-            (Some(before), Some(after)) => {
-                (before + after - 2.0 * total[index]) * (before + after - 2.0 * total[index])
-            }
-            _ => 0.0,
-        };
-        squared(at(-1, 0), at(1, 0)) + squared(at(0, -1), at(0, 1))
+        let count = self.valid().count().max(1) as f64;
+        let sum: f64 = self.valid().map(difference).sum();
+        if mean > 0.0 { (sum / count / f64::from(mean)) as f32 } else { 0.0 }
     }
 }
 
@@ -161,7 +146,7 @@ pub(super) fn warnings(world: &World, tally: &Tally, patches: usize, parts: usiz
     }
     if parts > 1 {
         warnings.push(format!(
-            "the images did not fit into the memory together and were baked in {parts} parts: where surfaces in different parts lie close together, their light on each other is as coarse as patches of 8 x 8 texels; allow more memory to bake them at once"
+            "the images did not fit into the memory together and were baked in {parts} parts: where surfaces in different parts lie close together, their light on each other is as coarse as patches of 8 x 8 texels, and seams between them remain; allow more memory to bake them at once"
         ));
     }
     warnings

@@ -2,18 +2,23 @@
 
 mod atlas;
 mod blend;
+mod blocks;
 mod chart;
 mod clip;
 mod dilate;
 mod direct;
 mod filter;
+mod footprint;
 mod gather;
 mod image;
 mod layout;
+mod links;
 mod overlap;
 mod patch_map;
 mod patches;
 mod plan;
+mod samples;
+mod seam;
 mod texel;
 mod tile;
 #[cfg(feature = "unwrap")]
@@ -30,7 +35,9 @@ pub use filter::*;
 pub use gather::*;
 pub use image::*;
 pub use layout::*;
+pub use links::*;
 pub use patch_map::*;
 pub use patches::*;
+pub use seam::*;
 pub use texel::*;
 pub use validity::*;
