@@ -7,8 +7,8 @@ use core::fmt;
 use glam::Vec3;
 
 use super::{
-    Cells, Codes, Fills, LampLight, Lighting, MaterialColors, Origin, Rows, Run, Sample, SeamPoint, Seams,
-    StoredImage, Surfaces, Transport,
+    Cells, Codes, Fills, LampLight, Lighting, MaterialColors, Origin, Rows, Run, Sample, SeamPoint, Seams, StoredImage,
+    Surfaces, Transport,
 };
 
 /// The first bytes of a file.

@@ -65,7 +65,9 @@ impl Edge {
 /// All edges that no other triangle shares in the lightmap.
 pub(super) fn open(world: &World, texels: &Texels) -> Vec<Edge> {
     let mut keys: Vec<([u32; 5], u32)> = Vec::new();
-    for (triangle, corners) in texels.corners.iter().enumerate().filter(|(triangle, _)| texels.images[*triangle] != NONE) {
+    for (triangle, corners) in
+        texels.corners.iter().enumerate().filter(|(triangle, _)| texels.images[*triangle] != NONE)
+    {
         let bits = corners.map(|corner| corner.to_array().map(f32::to_bits));
         keys.extend((0..3).map(|first| {
             let (a, b) = (bits[first], bits[(first + 1) % 3]);
