@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::lightmap::{Smooth, Texel, Texels};
+use crate::lightmap::{DirectError, Smooth, Texel, Texels};
 use crate::math;
 
 /// Errors relative to the light at each texel plus a tenth of the mean of all. Lists have one entry for each covered
@@ -21,8 +21,13 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// From both parts of the light of each texel.
-    pub fn new(texels: &Texels, is_valid: &[bool], direct: &[Vec3A], indirect: &[Smooth]) -> Self {
+    /// From both parts of the light of each texel, the direct one with its errors.
+    pub fn new(
+        texels: &Texels,
+        is_valid: &[bool],
+        (direct, direct_errors): (&[Vec3A], &[DirectError]),
+        indirect: &[Smooth],
+    ) -> Self {
         let total = |(direct, indirect): (&Vec3A, &Smooth)| Vec3::from(*direct) + indirect.irradiance;
         let light: Vec<f32> = direct.iter().zip(indirect).map(|pair| total(pair).element_sum() / 3.0).collect();
         let valid = || (0..light.len()).filter(|&index| is_valid[index]);
@@ -32,8 +37,8 @@ impl Estimate {
             return Self { errors: light.iter().map(|_| 0.0).collect(), light, mean, rms: 0.0 };
         }
         let scale = |index: usize| light[index] + 0.1 * mean;
-        let error =
-            |index: usize| if is_valid[index] { math::sqrt(indirect[index].variance) / scale(index) } else { 0.0 };
+        let variance = |index: usize| indirect[index].variance + direct_errors[index].noise;
+        let error = |index: usize| if is_valid[index] { math::sqrt(variance(index)) / scale(index) } else { 0.0 };
         let errors: Vec<f32> = (0..light.len()).map(error).collect();
         let between = Between { texels, is_valid, light: &light };
         let squared = |index: usize| {

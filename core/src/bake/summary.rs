@@ -8,14 +8,13 @@ use glam::Vec3A;
 
 use super::estimate::Estimate;
 use super::{EstimatedError, Report};
-use crate::lightmap::{Layout, Nodes, Smooth, Texels};
+use crate::lightmap::{Layout, Nodes, Smooth};
 use crate::scene::World;
 use crate::transport::{LARGEST_REFLECTANCE, Lighting, Rows, Solution, Surfaces};
 
 /// What a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
 pub(super) struct Done<'a> {
     pub world: &'a World<'a>,
-    pub texels: &'a Texels,
     pub is_valid: &'a [bool],
     pub surfaces: &'a Surfaces,
     pub solution: &'a Solution,
