@@ -52,7 +52,9 @@ impl<O: Occluders> Pieces<'_, O> {
             let ray = self.tracer.leave(triangle, point, normal, direction, f32::INFINITY);
             match self.tracer.nearest(&ray, hash(seed, k)) {
                 None => surfaces.sky(),
-                Some(hit) => self.patches.at(self.tracer, self.texels, &hit).map_or(surfaces.black(), |(patch, _)| patch),
+                Some(hit) => {
+                    self.patches.at(self.tracer, self.texels, &hit).map_or(surfaces.black(), |(patch, _)| patch)
+                }
             }
         };
         let mut ends: Vec<u32> = (0..rays).map(end).collect();

@@ -36,7 +36,8 @@ pub fn dilate(image: &mut LightmapImage, progress: &Progress) -> Result<Fills, C
     let mut gutter: Vec<usize> = Vec::new();
     for _ in 0..GUTTER {
         progress.check()?;
-        let mut ring: Vec<usize> = front.iter().flat_map(|&at| neighbors(filling.image, at)).map(|(_, at)| at).collect();
+        let mut ring: Vec<usize> =
+            front.iter().flat_map(|&at| neighbors(filling.image, at)).map(|(_, at)| at).collect();
         ring.retain(|&at| filling.image.states[at] == TexelState::Empty && !filling.known[at]);
         ring.sort_unstable();
         ring.dedup();

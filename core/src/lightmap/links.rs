@@ -39,10 +39,10 @@ impl Links {
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
         let walls = Walls { texels, is_valid, tracer };
-        let ahead = workers.map(is_valid.len(), 256, progress, |range| range.map(|texel| walls.ahead(texel)).collect())?;
-        let bytes = workers.map(is_valid.len(), 1024, progress, |range| {
-            range.map(|texel| walls.around(texel, &ahead)).collect()
-        })?;
+        let ahead =
+            workers.map(is_valid.len(), 256, progress, |range| range.map(|texel| walls.ahead(texel)).collect())?;
+        let bytes = workers
+            .map(is_valid.len(), 1024, progress, |range| range.map(|texel| walls.around(texel, &ahead)).collect())?;
         let mut links = Self(bytes);
         links.measure(texels);
         progress.check()?;
@@ -197,9 +197,9 @@ pub(super) fn is_free<O: Occluders>(tracer: &Tracer<O>, from: Vec3, to: Vec3) ->
 /// The up to eight texels around one.
 fn around(texels: &Texels, texel: u32) -> impl Iterator<Item = u32> + '_ {
     let Texel { pixel: [x, y], image, .. } = texels.list[texel as usize];
-    (0..9).filter(|&k| k != 4).filter_map(move |k| {
-        texels.at_pixel(u32::from(image), i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1)
-    })
+    (0..9)
+        .filter(|&k| k != 4)
+        .filter_map(move |k| texels.at_pixel(u32::from(image), i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1))
 }
 
 /// Looks for walls between texels.
