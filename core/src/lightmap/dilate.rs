@@ -143,6 +143,7 @@ mod tests {
             states: [v, v, i, v, v, i].into_iter().chain([e; 6]).collect(),
             charts: [0, 0, 0, 1, 1, 1].into_iter().chain([NONE; 6]).collect(),
             patches: vec![NONE; 12],
+            errors: vec![0.0; 12],
         };
         dilate(&mut image, &Progress::with_clock(|| 0.0)).unwrap();
         let values: Vec<f32> = image.texels.iter().map(|texel| texel.x).collect();
@@ -162,7 +163,7 @@ mod tests {
             texels: [9.0, 7.0, 0.5, 4.0, 7.0, 6.0].map(Vec3::splat).to_vec(),
             states: vec![v, i, v, v, i, v],
             charts: vec![0; 6],
-            patches: vec![NONE; 6],
+            ..Default::default()
         };
         dilate(&mut image, &Progress::with_clock(|| 0.0)).unwrap();
         let values: Vec<f32> = image.texels.iter().map(|texel| texel.x).collect();

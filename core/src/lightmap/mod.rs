@@ -2,11 +2,13 @@
 
 mod atlas;
 mod blend;
+mod blocks;
 mod chart;
 mod clip;
 mod dilate;
 mod direct;
 mod filter;
+mod footprint;
 mod gather;
 mod image;
 mod layout;
@@ -14,6 +16,8 @@ mod links;
 mod overlap;
 mod patches;
 mod plan;
+mod samples;
+mod seam;
 mod texel;
 mod tile;
 #[cfg(feature = "unwrap")]
@@ -32,5 +36,6 @@ pub use image::*;
 pub use layout::*;
 pub use links::*;
 pub use patches::*;
+pub use seam::*;
 pub use texel::*;
 pub use validity::*;
