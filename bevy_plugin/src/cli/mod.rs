@@ -15,6 +15,7 @@ mod output;
 mod preview;
 mod progress;
 mod prune;
+mod ray_dump;
 mod relight;
 mod report_file;
 mod scene_file;
@@ -30,7 +31,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use clap::Parser;
-use radiosity::bake::{Bake, BakeSettings, bake};
+use radiosity::bake::{Bake, BakeSettings, bake_logged};
+use radiosity::geometry::{NoLog, RayLog};
 use radiosity::progress::Progress;
 use radiosity::scene::Scene;
 
@@ -42,6 +44,7 @@ use self::document::Document;
 use self::memory::Budget;
 use self::output::Staging;
 use self::progress::Display;
+use self::ray_dump::RayDump;
 
 /// Set by Ctrl-C.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -129,7 +132,16 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     let staging = Staging::new(&args.out, interrupted)?;
     let memory = Budget::new(settings.memory_bytes)?;
     let settings = BakeSettings { memory_bytes: memory.left(), ..settings };
-    let mut bake = bake_watched(&loaded.collected.scene, &settings, &memory, interrupted)?;
+    let scene = &loaded.collected.scene;
+    let mut bake = match &args.dump_rays {
+        None => bake_watched(scene, &settings, &memory, &NoLog, interrupted)?,
+        Some(file) => {
+            let dump = RayDump::new(settings.threads)?;
+            let bake = bake_watched(scene, &settings, &memory, &dump, interrupted)?;
+            dump.write(file)?;
+            bake
+        }
+    };
     bake.report.estimated_memory_bytes += memory.resident;
     for warning in &bake.report.warnings {
         eprintln!("warning: {warning}");
@@ -155,12 +167,13 @@ fn bake_watched(
     scene: &Scene,
     settings: &BakeSettings,
     memory: &Budget,
+    log: &impl RayLog,
     interrupted: &AtomicBool,
 ) -> Result<Bake, CliError> {
     let progress = Progress::default();
     let mut display = Display::new();
     let result = thread::scope(|scope| {
-        let worker = scope.spawn(|| bake(scene, settings, &progress));
+        let worker = scope.spawn(|| bake_logged(scene, settings, &progress, log));
         while !worker.is_finished() {
             if interrupted.load(Ordering::Relaxed) {
                 progress.cancel();
