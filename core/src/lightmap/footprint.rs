@@ -30,6 +30,11 @@ impl Footprint {
         footprint
     }
 
+    /// The middle of a texel alone.
+    pub fn middle(texel: &Texel) -> Self {
+        Self { center: texel.position, steps: [Vec3::ZERO; 2], quarters: [Vec2::ZERO; 4], covered: 0 }
+    }
+
     /// Point `k`: all over a texel that is covered, else one of the middles of its covered quarters, else its own. Two
     /// dimensions of the sequence are used, from `dimension` on.
     pub fn point(&self, sequence: &Sobol, k: u32, dimension: usize) -> Vec3 {
