@@ -13,6 +13,8 @@ use crate::math;
 
 /// The rest of a cut is cut into so many nodes, if it holds as many.
 const CLUSTERS: usize = 128;
+/// How often a bound counts as seen before anything was: fewer learn faster.
+const PRIOR: f32 = 0.25;
 /// Rounding of cosines: a bound must not fall below what it bounds.
 const SLACK: f32 = 1e-5;
 
@@ -337,7 +339,8 @@ impl LightTree {
 impl Guide {
     /// A guide to the rest of a cut that has seen nothing yet.
     pub fn new(cut: &Cut) -> Self {
-        let mut guide = Self { seen: cut.bounds.iter().map(|&bound| [1.0, bound * bound]).collect(), sums: Vec::new() };
+        let mut guide =
+            Self { seen: cut.bounds.iter().map(|&bound| [PRIOR, PRIOR * bound * bound]).collect(), sums: Vec::new() };
         guide.learn(&[]);
         guide
     }
@@ -395,5 +398,131 @@ impl Open {
 
     fn pop(&mut self) -> Option<(f32, u32)> {
         self.0.pop().map(|(bits, node)| (f32::from_bits(bits), node))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Sobol, cone_direction};
+    use crate::light::{AreaLight, DirectLight, PointLight, SpotLight};
+    use alloc::vec;
+
+    fn random(seed: u32, k: u32) -> Vec3 {
+        let sequence = Sobol::new(seed);
+        Vec3::new(sequence.dimension(k, 0), sequence.dimension(k, 1), sequence.dimension(k, 2))
+    }
+
+    fn direction(seed: u32, k: u32) -> Vec3 {
+        cone_direction(Sobol::new(seed).square(k), Vec3::Y, -1.0)
+    }
+
+    /// Points, spots and triangles all over a cube of 10 m.
+    fn lights(count: u32) -> Vec<DirectLight> {
+        let light = |k: u32| {
+            let position = 10.0 * random(1, k);
+            let range = if k % 2 == 0 { f32::INFINITY } else { 2.0 + 6.0 * random(2, k).x };
+            let point = PointLight { position, intensity: 3.0 * random(3, k), range, radius: 0.0 };
+            let outer_angle = 0.1 + 1.4 * random(2, k).y;
+            match k % 3 {
+                0 => DirectLight::Point(point),
+                1 => {
+                    let direction = direction(4, k);
+                    DirectLight::Spot(SpotLight { point, direction, inner_angle: 0.5 * outer_angle, outer_angle })
+                }
+                _ => {
+                    let corners = [5, 6, 7].map(|seed| position + random(seed, k));
+                    let emitters = [(corners, 3.0 * random(3, k))];
+                    let mut light = AreaLight::new(emitters.into_iter(), k % 2 == 0);
+                    light.range = range;
+                    DirectLight::Area(light)
+                }
+            }
+        };
+        (0..count).map(light).collect()
+    }
+
+    fn tree(lights: &[DirectLight]) -> LightTree {
+        let emissions = lights.iter().enumerate().filter_map(|(k, light)| Some((k as u32, light.emission(Vec3::ONE)?)));
+        LightTree::new(emissions.collect())
+    }
+
+    fn level(light: &DirectLight, (point, normal): (Vec3, Vec3)) -> f32 {
+        light.irradiance(point, normal).element_sum() / 3.0
+    }
+
+    /// The lamps below a node.
+    fn below(tree: &LightTree, node: u32) -> Vec<u32> {
+        match tree.nodes[node as usize].below {
+            Below::Lamp(lamp) => vec![lamp],
+            Below::Second(second) => [below(tree, node + 1), below(tree, second)].concat(),
+        }
+    }
+
+    /// Points in a small box with normals in a cone.
+    fn sites(k: u32) -> Vec<(Vec3, Vec3)> {
+        let (corner, axis, size) = (12.0 * random(8, k) - 1.0, direction(9, k), random(10, k).x);
+        let cone = |j| cone_direction(Sobol::new(k).square(j), axis, 1.0 - 0.5 * random(10, k).y);
+        (0..8).map(|j| (corner + size * random(11 + k, j), cone(j))).collect()
+    }
+
+    #[test]
+    fn no_lamp_gives_more_than_its_bound() {
+        let lights = lights(60);
+        let tree = tree(&lights);
+        for k in 0..150 {
+            let sites = sites(k);
+            let region = Region::around(sites.iter().map(|&(point, normal)| (point, normal, 0.0)));
+            for node in 0..tree.nodes.len() as u32 {
+                let bound = tree.nodes[node as usize].emission.bound(&region);
+                for &site in &sites {
+                    let sum: f32 = below(&tree, node).iter().map(|&lamp| level(&lights[lamp as usize], site)).sum();
+                    assert!(sum <= bound * 1.0001, "{sum} above {bound} at {site:?}");
+                }
+            }
+        }
+    }
+
+    /// Each lamp that gives light is either asked by itself or among the rest, and no lamp is both.
+    #[test]
+    fn cuts_hold_every_lamp_once() {
+        let lights = lights(1000);
+        let tree = tree(&lights);
+        for k in 0..50 {
+            let sites = sites(k);
+            let region = Region::around(sites.iter().map(|&(point, normal)| (point, normal, 0.0)));
+            let cut = tree.cut(&region, 20, 0.0, |lamp| level(&lights[lamp as usize], sites[0]));
+            let mut held = cut.lamps.clone();
+            cut.rest.iter().for_each(|&node| held.extend(below(&tree, node)));
+            held.sort_unstable();
+            assert!(held.windows(2).all(|pair| pair[0] < pair[1]));
+            for lamp in (0..1000).filter(|lamp| held.binary_search(lamp).is_err()) {
+                assert!(sites.iter().all(|&site| level(&lights[lamp as usize], site) == 0.0));
+            }
+        }
+    }
+
+    /// The mean of light over probability is the sum of the light of all lamps of the rest, before and after learning.
+    #[test]
+    fn choices_are_fair() {
+        let lights = lights(300);
+        let tree = tree(&lights);
+        for k in 0..10 {
+            let site = sites(k)[0];
+            let region = Region::point(site.0, site.1);
+            let cut = tree.cut(&region, 10, 0.0, |lamp| level(&lights[lamp as usize], site));
+            let rest = cut.rest.iter().flat_map(|&node| below(&tree, node));
+            let exact: f32 = rest.map(|lamp| level(&lights[lamp as usize], site)).sum();
+            let mut guide = Guide::new(&cut);
+            for pass in 0..2 {
+                let choices = (0..4096).filter_map(|i| tree.choose(&cut, &guide, &region, (i as f32 + 0.5) / 4096.0));
+                let gave: Vec<(Choice, f32)> = choices
+                    .map(|choice| (choice, level(&lights[choice.lamp as usize], site) / choice.probability))
+                    .collect();
+                let mean = gave.iter().map(|(_, light)| light).sum::<f32>() / 4096.0;
+                assert!((mean - exact).abs() <= 0.02 * exact, "{mean} instead of {exact} in pass {pass}");
+                guide.learn(&gave);
+            }
+        }
     }
 }
