@@ -2,9 +2,9 @@
 
 mod accessor;
 mod args;
-mod builtin;
 mod document;
 mod error;
+mod export;
 mod exr;
 mod load;
 mod loadable;
@@ -37,6 +37,7 @@ use radiosity::progress::Progress;
 use radiosity::scene::Scene;
 
 pub use self::error::CliError;
+pub use self::export::write_glb;
 
 use self::args::Args;
 use self::document::Document;
@@ -116,7 +117,7 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     keep_source(args)?;
     let mut document = match &args.scene {
         Some(path) => Document::read(path)?,
-        None => builtin::cornell_document(),
+        None => export::cornell_document()?,
     };
     let settings = args.settings();
     let hash = write::hash(&document, args, &settings);

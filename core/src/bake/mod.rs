@@ -4,6 +4,7 @@ mod assemble;
 mod check;
 mod emitters;
 mod error;
+mod estimate;
 mod field;
 mod memory;
 mod pieces;
@@ -22,9 +23,10 @@ use alloc::vec::Vec;
 use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
+use crate::light::Lamps;
 use crate::lightmap::{
-    Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels,
-    filter, layout,
+    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Seams,
+    Texels, check as check_texels, filter, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -32,6 +34,7 @@ use crate::scene::{Scene, World};
 use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
 use assemble::Assembly;
 use emitters::Lamp;
+use estimate::Estimate;
 use field::Field;
 use pieces::Pieces;
 use rays::RayBudget;
@@ -102,7 +105,7 @@ pub fn bake_logged(
 
     log.enter_after(Stage::Direct, tracer);
     let lighting = Lighting::from(scene);
-    let (direct, kept) = baker.direct(&lamps, &lighting)?;
+    let DirectLights { sums: direct, errors: direct_errors, kept } = baker.direct(&lamps, &lighting)?;
 
     log.enter_after(Stage::Transport, tracer);
     let rows = pieces.rows(budget.row, &surfaces)?;
@@ -116,13 +119,16 @@ pub fn bake_logged(
     let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
 
     log.enter_after(Stage::Finish, tracer);
+    let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect);
     let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (images, fills) = assembly.images(&direct, &indirect)?;
-    let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let done = done.report(&layout, &lighting, &direct, &nodes, &indirect);
+    let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
+    let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
+    let seam_report = seams.solve(&mut images, workers, progress)?;
+    let done = Done { world: &world, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
+    let done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?),
     };
     let report = Report {
         images: images.len(),
@@ -131,6 +137,7 @@ pub fn bake_logged(
         seed: settings.seed,
         estimated_memory_bytes: needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
+        seams: seam_report,
         stages: log.finish(tracer),
         ..done
     };
@@ -158,36 +165,37 @@ struct Baker<'a, O> {
 }
 
 impl<O: Occluders> Baker<'_, O> {
-    /// Direct irradiance / pi for each receiver, and what is kept of each lamp.
-    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<(Vec<Vec3A>, Vec<LampLight>), Cancelled> {
-        let mut sum = vec![Vec3A::ZERO; self.surfaces.receivers()];
-        let mut kept = Vec::new();
-        for (index, lamp) in lamps.iter().enumerate() {
-            self.pieces.progress.enter_part(index, lamps.len());
-            let strength = lighting.strength(lamp.origin);
-            if strength == Vec3::ZERO && self.keep == Keep::Lightmaps {
-                continue;
+    /// Direct light of each receiver, how far it may be off for each texel, and what is kept of each lamp.
+    ///
+    /// What is kept is linear in the lamps by its nature, and so is the time that it takes.
+    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<DirectLights, Cancelled> {
+        let mut lights = DirectLights::new(self.surfaces.receivers(), self.is_valid.len());
+        match self.keep {
+            Keep::Lightmaps => {
+                let strong = lamps.iter().map(|lamp| (&lamp.light, lighting.strength(lamp.origin)));
+                lights.add(&self.light(&Lamps::new(strong.collect()), 0)?, Vec3::ONE);
             }
-            let light = self.light(lamp, index)?;
-            sum.iter_mut().zip(&light).for_each(|(sum, light)| *sum += Vec3A::from(strength * *light));
-            match self.keep {
-                Keep::Lightmaps => {}
-                Keep::Transport => kept.extend(LampLight::new(lamp.origin, &light)),
+            Keep::Transport => {
+                for (index, lamp) in lamps.iter().enumerate() {
+                    let light = self.light(&Lamps::new(vec![(&lamp.light, Vec3::ONE)]), index)?;
+                    lights.add(&light, lighting.strength(lamp.origin));
+                    let light: Vec<Vec3> = light.iter().map(|light| light.irradiance).collect();
+                    lights.kept.extend(LampLight::new(lamp.origin, &light));
+                }
             }
         }
-        Ok((sum, kept))
+        Ok(lights)
     }
 
-    /// Irradiance / pi of each receiver from a lamp of strength 1.
-    fn light(&self, lamp: &Lamp, index: usize) -> Result<Vec<Vec3>, Cancelled> {
+    /// Light of each receiver from all of these lamps, of which the first has this index.
+    fn light(&self, lamps: &Lamps, first: usize) -> Result<Vec<DirectTexel>, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
-        let seed = hash(self.seeds.of(2), index as u32);
+        let seed = hash(self.seeds.of(2), first as u32);
         let direct = Direct { texels, is_valid: self.is_valid, tracer, rays: self.budget.shadow, seed };
-        let mut light = direct.light(&lamp.light, workers, progress)?;
+        let mut light = direct.light(lamps, workers, progress)?;
         let bare = &self.surfaces.bare;
-        light.extend(workers.map(bare.len(), 64, progress, |range| {
-            bare[range].iter().map(|&patch| self.pieces.direct_on(patch, &lamp.light)).collect()
-        })?);
+        let on = |&patch: &u32| DirectTexel { irradiance: self.pieces.direct_on(patch, lamps), ..Default::default() };
+        light.extend(workers.map(bare.len(), 64, progress, |range| bare[range].iter().map(on).collect())?);
         Ok(light)
     }
 
@@ -195,7 +203,7 @@ impl<O: Occluders> Baker<'_, O> {
     fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A]) -> Result<Nodes, Cancelled> {
         let Pieces { tracer, texels, patches, workers, progress, .. } = *self.pieces;
         let spread = self.budget.spread();
-        let field = Field { world: tracer.world, texels, patches, surfaces: self.surfaces, spread };
+        let field = Field { tracer, texels, patches, surfaces: self.surfaces, spread };
         let gather = Gather {
             texels,
             is_valid: self.is_valid,
@@ -212,6 +220,29 @@ impl<O: Occluders> Baker<'_, O> {
         let mean = lights.iter().sum::<f32>() / lights.len().max(1) as f32;
         gather.refine(&mut nodes, |texel| lights[texel] + 0.1 * mean, workers, progress)?;
         Ok(nodes)
+    }
+}
+
+/// What comes straight from the lamps.
+struct DirectLights {
+    /// Irradiance / pi for each receiver.
+    sums: Vec<Vec3A>,
+    /// How far that may be off, for each texel.
+    errors: Vec<DirectError>,
+    kept: Vec<LampLight>,
+}
+
+impl DirectLights {
+    fn new(receivers: usize, texels: usize) -> Self {
+        Self { sums: vec![Vec3A::ZERO; receivers], errors: vec![DirectError::default(); texels], kept: Vec::new() }
+    }
+
+    fn add(&mut self, lights: &[DirectTexel], strength: Vec3) {
+        for (index, light) in lights.iter().enumerate() {
+            let light = light.times(strength);
+            self.sums[index] += Vec3A::from(light.irradiance);
+            self.errors.get_mut(index).into_iter().for_each(|error| *error += light.error);
+        }
     }
 }
 

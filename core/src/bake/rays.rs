@@ -41,19 +41,19 @@ impl From<Quality> for RayBudget {
             Quality::Draft => Self {
                 row: 64,
                 patches: 1024,
-                shadow: ShadowRays { first: 8, sharp: 4, penumbra: 16 },
+                shadow: ShadowRays { first: 8, sharp: 4, most: 32, noise: 0.05 },
                 gather: GatherSettings { rays: 16, most_rays: 128, spacing: 0.25, contrast: 0.15, noise: 0.06 },
             },
             Quality::Medium => Self {
                 row: 128,
                 patches: 4096,
-                shadow: ShadowRays { first: 16, sharp: 8, penumbra: 64 },
+                shadow: ShadowRays { first: 16, sharp: 8, most: 256, noise: 0.02 },
                 gather: GatherSettings { rays: 64, most_rays: 1024, spacing: 0.12, contrast: 0.08, noise: 0.02 },
             },
             Quality::High => Self {
                 row: 256,
                 patches: 16384,
-                shadow: ShadowRays { first: 32, sharp: 16, penumbra: 256 },
+                shadow: ShadowRays { first: 32, sharp: 16, most: 1024, noise: 0.01 },
                 gather: GatherSettings { rays: 256, most_rays: 4096, spacing: 0.06, contrast: 0.04, noise: 0.01 },
             },
         }

@@ -2,17 +2,22 @@
 
 mod atlas;
 mod blend;
+mod blocks;
 mod chart;
 mod clip;
 mod dilate;
 mod direct;
 mod filter;
+mod footprint;
 mod gather;
 mod image;
 mod layout;
+mod links;
 mod overlap;
 mod patches;
 mod plan;
+mod samples;
+mod seam;
 mod texel;
 mod tile;
 #[cfg(feature = "unwrap")]
@@ -29,6 +34,8 @@ pub use filter::*;
 pub use gather::*;
 pub use image::*;
 pub use layout::*;
+pub use links::*;
 pub use patches::*;
+pub use seam::*;
 pub use texel::*;
 pub use validity::*;
