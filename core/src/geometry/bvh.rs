@@ -12,7 +12,7 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use super::wide::{Binary, Content, PADDING, Tree};
 use super::{Hit, Occluders, Ray};
 
-/// Triangles in a tree. Memory: about 80 bytes a triangle, some 130 at worst; 250 while it is built.
+/// Triangles in a tree. Memory: about 80 bytes a triangle; 290 while it is built.
 pub struct Bvh(Tree);
 
 /// What a bake asks for hits.

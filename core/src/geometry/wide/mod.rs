@@ -239,3 +239,18 @@ impl<S: FnMut(&Hit) -> bool> Task for Any<'_, S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A stack deeper than its first part loses nothing.
+    #[test]
+    fn deep_stacks() {
+        let mut stack = Stack::new();
+        (0..1000).for_each(|entry| stack.push(entry));
+        let mut popped: Vec<i32> = core::iter::from_fn(|| stack.pop()).collect();
+        popped.sort_unstable();
+        assert_eq!(popped, (0..1000).collect::<Vec<_>>());
+    }
+}
