@@ -124,7 +124,7 @@ pub fn bake_logged(
     let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
     let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
     let seam_report = seams.solve(&mut images, workers, progress)?;
-    let done = Done { world: &world, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
+    let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
     let done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
