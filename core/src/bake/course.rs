@@ -114,7 +114,7 @@ impl Course<'_> {
             let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
             let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
             let seam_report = seams.solve(&mut images, workers, progress)?;
-            let done = Done { is_valid, surfaces: &surfaces, solution };
+            let done = Done { world: tracer.world, texels, is_valid, surfaces: &surfaces, solution };
             let done = done.tally(self.lighting, &estimate, &nodes, &indirect);
             tally.add(&Tally { seams: seam_report, ..done });
             for (index, image) in texels.here.clone().zip(images) {

@@ -9,8 +9,8 @@ use super::{BakeError, BakeSettings, Keep};
 use crate::lightmap::Layout;
 use crate::scene::{Receiver, Scene};
 
-/// For each triangle: corners, normal, source, corners in the image, and its part of the tree.
-const TRIANGLE: u64 = 220;
+/// For each triangle: corners twice, normal, source, corners in the image, and its part of the tree while it is built.
+const TRIANGLE: u64 = 420;
 /// For each texel of an image that is being worked on: what covers it, its index, the finished lightmap with its states,
 /// the texel, direct, incident and gathered light, its patch and the lists that make these.
 const TEXEL: u64 = 259;

@@ -2,32 +2,40 @@
 
 use alloc::format;
 use alloc::string::String;
+use alloc::vec;
 use alloc::vec::Vec;
 
 use glam::Vec3A;
 
 use super::estimate::Estimate;
 use super::{EstimatedError, Report};
-use crate::lightmap::{Nodes, SeamReport, Smooth};
+use crate::lightmap::{Nodes, SeamReport, Smooth, Texels};
 use crate::math;
 use crate::scene::World;
 use crate::transport::{LARGEST_REFLECTANCE, Lighting, Rows, Solution, Surfaces};
 
+/// Most surfaces that a warning names.
+const NAMED: usize = 8;
+
 /// What a part of a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
 pub(super) struct Done<'a> {
+    pub world: &'a World<'a>,
+    pub texels: &'a Texels,
     pub is_valid: &'a [bool],
     pub surfaces: &'a Surfaces,
     pub solution: &'a Solution,
 }
 
 /// What the parts of a bake say together.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Tally {
     pub valid_texels: usize,
     pub invalid_texels: usize,
     pub nodes: usize,
     /// Patches that would reflect more than anything real does.
     pub lowered: usize,
+    /// Surfaces of charts that lie inside geometry, one for each chart.
+    pub hidden: Vec<u32>,
     /// Light of all valid texels, mean over the channels.
     pub light: f64,
     pub error: EstimatedError,
@@ -62,6 +70,7 @@ impl Tally {
         self.invalid_texels += part.invalid_texels;
         self.nodes += part.nodes;
         self.lowered += part.lowered;
+        self.hidden.extend(&part.hidden);
         self.light += part.light;
     }
 
@@ -98,6 +107,7 @@ impl Done<'_> {
             invalid_texels: self.is_valid.len() - valid_texels,
             nodes: nodes.gathered.iter().filter(|node| node.rays > 0).count(),
             lowered: self.surfaces.count_lowered(lighting),
+            hidden: self.hidden(),
             light: valid_texels as f64 * f64::from(estimate.mean),
             error: EstimatedError { rms: estimate.rms, bias: self.bias(estimate.mean, indirect) },
             ..Tally::default()
@@ -123,6 +133,20 @@ impl Done<'_> {
         let sum: f64 = self.valid().map(difference).sum();
         if mean > 0.0 { (sum / count / f64::from(mean)) as f32 } else { 0.0 }
     }
+
+    /// The surfaces of charts that lie inside geometry with all their texels, one for each chart.
+    fn hidden(&self) -> Vec<u32> {
+        let Some(charts) = self.texels.list.iter().map(|texel| texel.chart as usize + 1).max() else {
+            return Vec::new();
+        };
+        let (mut is_seen, mut surfaces) = (vec![false; charts], vec![u32::MAX; charts]);
+        for (texel, &is_valid) in self.texels.list.iter().zip(self.is_valid) {
+            is_seen[texel.chart as usize] |= is_valid;
+            surfaces[texel.chart as usize] = self.world.sources[texel.triangle as usize].surface;
+        }
+        let with_seen = surfaces.into_iter().zip(is_seen);
+        with_seen.filter(|&(surface, is_seen)| surface != u32::MAX && !is_seen).map(|(surface, _)| surface).collect()
+    }
 }
 
 /// What the user should know about the scene and how it was baked.
@@ -138,6 +162,7 @@ pub(super) fn warnings(world: &World, tally: &Tally, patches: usize, parts: usiz
     if tally.light == 0.0 {
         warnings.push(String::from("every texel is black: no light reaches a surface with a lightmap"));
     }
+    warnings.extend(hidden(world, &tally.hidden));
     let lowered = tally.lowered;
     if lowered > 0 {
         warnings.push(format!(
@@ -150,4 +175,22 @@ pub(super) fn warnings(world: &World, tally: &Tally, patches: usize, parts: usiz
         ));
     }
     warnings
+}
+
+/// A warning that names the surfaces of which charts lie inside geometry.
+fn hidden(world: &World, charts: &[u32]) -> Option<String> {
+    let mut named = charts.to_vec();
+    named.sort_unstable();
+    named.dedup();
+    let name = |&surface: &u32| format!("\"{}\"", world.scene.surfaces[surface as usize].name);
+    let names: Vec<String> = named.iter().take(NAMED).map(name).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "{} charts of {} surfaces ({}{}) lie inside others and took the light beside them in the lightmap; remove what nobody can see",
+            charts.len(),
+            named.len(),
+            names.join(", "),
+            if named.len() > NAMED { ", ..." } else { "" },
+        )
+    })
 }

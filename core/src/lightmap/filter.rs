@@ -67,17 +67,20 @@ pub fn stencil(
         return visit(index, 1.0);
     }
     let reach = (math::ceil(2.0 * sigma) as i32).min(REACH);
-    for y in -reach..=reach {
-        for x in -reach..=reach {
-            let Some(other) = neighbor(texel, texels, is_valid, x, y) else { continue };
-            if !texels.is_connected(index as u32, x, y) {
-                continue;
-            }
-            // Neither mixes far into what the other sees near.
-            let narrow = sigma.min(sigma * gathered[other].distance / own.distance.max(1e-9)).max(0.2);
-            visit(other, math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow)));
+    let weight = |x: i32, y: i32| {
+        let other = neighbor(texel, texels, is_valid, x, y).filter(|_| texels.is_connected(index as u32, x, y))?;
+        // Neither mixes far into what the other sees near.
+        let narrow = sigma.min(sigma * gathered[other].distance / own.distance.max(1e-9)).max(0.2);
+        Some((other, math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow))))
+    };
+    // What lies opposite counts as much: one that looks to one side only is wrong wherever light changes.
+    for y in 0..=reach {
+        for x in if y == 0 { 1 } else { -reach }..=reach {
+            let (Some((one, share)), Some((other, opposite))) = (weight(x, y), weight(-x, -y)) else { continue };
+            [one, other].into_iter().for_each(|texel| visit(texel, share.min(opposite)));
         }
     }
+    visit(index, 1.0);
 }
 
 fn neighbor(texel: &Texel, texels: &Texels, is_valid: &[bool], x: i32, y: i32) -> Option<usize> {
