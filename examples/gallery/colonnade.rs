@@ -17,7 +17,7 @@ pub fn exhibit() -> Exhibit {
     columns(&mut model);
     wall(&mut model);
     sky(&mut model);
-    model.seen_by("colonnade", camera(vec3(9.2, 1.75, 4.6), vec3(-0.8, 2.25, -1.2), 46.0), 12.2, 24.0)
+    model.seen_by("colonnade", camera(vec3(9.2, 1.75, 4.6), vec3(-0.8, 2.25, -1.2), 46.0), 12.2, 12.0)
 }
 
 fn ground(model: &mut Model) {

@@ -26,7 +26,7 @@ pub fn exhibit() -> Exhibit {
     shelf(&mut model);
     lamps(&mut model);
     plant(&mut model);
-    model.seen_by("furnished_room", camera(vec3(5.35, 1.6, 4.2), vec3(1.75, 0.95, 1.0), 50.0), 7.4, 40.0)
+    model.seen_by("furnished_room", camera(vec3(5.35, 1.6, 4.2), vec3(1.75, 0.95, 1.0), 50.0), 7.4, 24.0)
 }
 
 fn walls(model: &mut Model) {

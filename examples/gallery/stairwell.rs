@@ -30,7 +30,7 @@ pub fn exhibit() -> Exhibit {
     flights(&mut model);
     railings(&mut model);
     lamps(&mut model);
-    model.seen_by("stairwell", camera(vec3(2.35, 1.6, 5.25), vec3(0.95, 2.1, 1.6), 66.0), 6.9, 48.0)
+    model.seen_by("stairwell", camera(vec3(2.35, 1.6, 5.25), vec3(0.95, 2.1, 1.6), 66.0), 6.9, 32.0)
 }
 
 fn walls(model: &mut Model) {
