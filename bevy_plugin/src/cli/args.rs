@@ -54,8 +54,12 @@ pub(super) struct Args {
     #[arg(long)]
     pub transport: bool,
 
+    /// Write density.png, error.png, invalid.png and seams.png too: how good the bake is, seen as preview.png is
+    #[arg(long)]
+    pub views: bool,
+
     /// Make the lightmaps of a folder anew for other lamps and colors, by its transport.bin; its other files stay
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "out", "transport"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "out", "transport", "views"])]
     pub relight: Option<PathBuf>,
 
     /// Factor on what a lamp, or a material that emits, gave in the bake: one for all channels or three; 0 is off
