@@ -1,7 +1,7 @@
 //! What each quality spends.
 
 use super::{BakeSettings, Keep, Quality};
-use crate::lightmap::{GatherSettings, ShadowRays};
+use crate::lightmap::{Enough, GatherSettings, ShadowRays};
 use crate::math;
 
 /// Rays for each purpose. Counts are powers of two, as Sobol points like them.
@@ -13,6 +13,10 @@ pub(super) struct RayBudget {
     pub patches: usize,
     pub shadow: ShadowRays,
     pub gather: GatherSettings,
+    /// How many rays share the hemisphere where a gathered ray is taken for a cone.
+    pub cone: u32,
+    /// Rays of a texel whose row is kept.
+    pub kept: u32,
 }
 
 impl RayBudget {
@@ -24,14 +28,16 @@ impl RayBudget {
         let budget = Self::from(settings.quality);
         let gather = match settings.keep {
             Keep::Lightmaps => budget.gather,
-            Keep::Transport => GatherSettings { contrast: f32::INFINITY, noise: 0.0, ..budget.gather },
+            Keep::Transport => {
+                GatherSettings { contrast: f32::INFINITY, enough: Enough::Rays(budget.kept), ..budget.gather }
+            }
         };
         Self { gather, ..budget }
     }
 
-    /// Width of the cone that one gathered ray stands for, at a distance of one meter: `2 / sqrt(rays)`.
+    /// Width of the cone that one gathered ray stands for, at a distance of one meter: `2 / sqrt(cone)`.
     pub fn spread(&self) -> f32 {
-        2.0 / math::sqrt(self.gather.rays as f32)
+        2.0 / math::sqrt(self.cone as f32)
     }
 }
 
@@ -42,19 +48,43 @@ impl From<Quality> for RayBudget {
                 row: 64,
                 patches: 1024,
                 shadow: ShadowRays { first: 8, sharp: 4, penumbra: 16 },
-                gather: GatherSettings { rays: 16, most_rays: 128, spacing: 0.25, contrast: 0.15, noise: 0.06 },
+                cone: 16,
+                kept: 32,
+                gather: GatherSettings {
+                    rays: 8,
+                    most_rays: 128,
+                    spacing: 0.25,
+                    contrast: 0.15,
+                    enough: Enough::Error(0.03),
+                },
             },
             Quality::Medium => Self {
                 row: 128,
                 patches: 4096,
                 shadow: ShadowRays { first: 16, sharp: 8, penumbra: 64 },
-                gather: GatherSettings { rays: 64, most_rays: 1024, spacing: 0.12, contrast: 0.08, noise: 0.02 },
+                cone: 64,
+                kept: 128,
+                gather: GatherSettings {
+                    rays: 16,
+                    most_rays: 1024,
+                    spacing: 0.12,
+                    contrast: 0.08,
+                    enough: Enough::Error(0.01),
+                },
             },
             Quality::High => Self {
                 row: 256,
                 patches: 16384,
                 shadow: ShadowRays { first: 32, sharp: 16, penumbra: 256 },
-                gather: GatherSettings { rays: 256, most_rays: 4096, spacing: 0.06, contrast: 0.04, noise: 0.01 },
+                cone: 256,
+                kept: 512,
+                gather: GatherSettings {
+                    rays: 64,
+                    most_rays: 4096,
+                    spacing: 0.06,
+                    contrast: 0.04,
+                    enough: Enough::Error(0.005),
+                },
             },
         }
     }

@@ -2,6 +2,7 @@
 
 mod atlas;
 mod blend;
+mod cells;
 mod chart;
 mod clip;
 mod dilate;
@@ -13,6 +14,7 @@ mod layout;
 mod overlap;
 mod patches;
 mod plan;
+mod refine;
 mod texel;
 mod tile;
 #[cfg(feature = "unwrap")]
