@@ -33,12 +33,14 @@ pub(super) struct ReportFile<'a> {
     closure_error: f32,
     energy_balance: f32,
     estimated_error: EstimatedError,
+    seams: Seams,
     warnings: &'a [String],
 }
 
 #[derive(Serialize)]
 struct Settings {
     quality: String,
+    target_error: f32,
     uv: String,
     resolution: String,
     emissive_scale: f32,
@@ -55,7 +57,18 @@ struct Stage {
 #[derive(Serialize)]
 struct EstimatedError {
     rms: f32,
+    noise: f32,
     bias: f32,
+}
+
+/// Steps between the two sides of seams.
+#[derive(Serialize)]
+struct Seams {
+    pairs: usize,
+    step_before: f32,
+    step_after: f32,
+    largest_before: f32,
+    largest_after: f32,
 }
 
 impl<'a> ReportFile<'a> {
@@ -67,6 +80,7 @@ impl<'a> ReportFile<'a> {
             scene,
             settings: Settings {
                 quality: format!("{:?}", settings.quality).to_lowercase(),
+                target_error: settings.target_error,
                 uv: format!("{:?}", settings.layout.uv).to_lowercase(),
                 resolution: match settings.layout.resolution {
                     Resolution::Texels(texels) => format!("{texels} texels"),
@@ -99,7 +113,18 @@ impl<'a> ReportFile<'a> {
                 .collect(),
             closure_error: report.closure_error,
             energy_balance: report.energy_balance,
-            estimated_error: EstimatedError { rms: report.estimated_error.rms, bias: report.estimated_error.bias },
+            estimated_error: EstimatedError {
+                rms: report.estimated_error.rms,
+                noise: report.estimated_error.noise,
+                bias: report.estimated_error.bias,
+            },
+            seams: Seams {
+                pairs: report.seams.pairs,
+                step_before: report.seams.step_before,
+                step_after: report.seams.step_after,
+                largest_before: report.seams.largest_before,
+                largest_after: report.seams.largest_after,
+            },
             warnings,
         }
     }

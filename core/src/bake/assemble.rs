@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::lightmap::{Blend, LightmapImage, NONE, Nodes, Patches, Smooth, TexelState, Texels, dilate};
+use crate::lightmap::{Blend, LightmapImage, NONE, Nodes, Patches, Seams, Smooth, TexelState, Texels, dilate};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
@@ -62,6 +62,7 @@ impl Assembly<'_> {
         patches: Rows,
         nodes: Nodes,
         fills: Vec<Fills>,
+        seams: Seams,
         scene: &Scene,
     ) -> Result<Transport, Cancelled> {
         let blend = Blend::new(nodes, self.texels, self.is_valid, self.workers, self.progress)?;
@@ -73,6 +74,7 @@ impl Assembly<'_> {
             nodes: blend.nodes,
             texels: blend.texels,
             images,
+            seams,
             lighting: Lighting::from(scene),
             lamp_names: scene.lights.iter().map(|light| light.name.clone()).collect(),
             material_names: scene.materials.iter().map(|material| material.name.clone()).collect(),

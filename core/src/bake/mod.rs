@@ -22,10 +22,11 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::geometry::{Occluders, hash, tree};
+use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
+use crate::light::Lamps;
 use crate::lightmap::{
-    Direct, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels, check as check_texels,
-    filter, layout,
+    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Seams,
+    Texels, check as check_texels, filter, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -64,6 +65,20 @@ pub struct Bake {
 ///
 /// See [`BakeError`]; the text of each says what to do.
 pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
+    bake_logged(scene, settings, progress, &NoLog)
+}
+
+/// Bakes as [`bake`] does and hands every ray to `ray_log`: to trace the same rays elsewhere.
+///
+/// # Errors
+///
+/// Those of [`bake`].
+pub fn bake_logged(
+    scene: &Scene,
+    settings: &BakeSettings,
+    progress: &Progress,
+    ray_log: &impl RayLog,
+) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
     let budget = RayBudget::new(settings);
     let mut log = Log::new(progress);
@@ -76,7 +91,8 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter(Stage::Geometry);
     let world = World::new(scene);
     let blockers = world.corners[..world.blockers].to_vec();
-    let tracer = Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
+    let occluders = workers.run_apart(progress, || tree(blockers))?;
+    let tracer = Tracer::new(&world, Logged { occluders, log: ray_log });
     let mut texels = Texels::new(&world, &layout, progress)?;
     let seeds = Seeds(settings.seed);
     let is_valid = check_texels(&mut texels, &tracer, &workers, seeds.of(1), progress)?;
@@ -89,7 +105,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
 
     log.enter_after(Stage::Direct, tracer);
     let lighting = Lighting::from(scene);
-    let (direct, kept) = baker.direct(&lamps, &lighting)?;
+    let DirectLights { sums: direct, errors: direct_errors, kept } = baker.direct(&lamps, &lighting)?;
 
     log.enter_after(Stage::Transport, tracer);
     let rows = pieces.rows(budget.row, &surfaces)?;
@@ -103,14 +119,17 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
 
     log.enter_after(Stage::Finish, tracer);
-    let estimate = Estimate::new(texels, is_valid, &direct, &indirect);
+    let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect);
     let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
-    let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
+    let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
+    let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
+    let seam_report = seams.solve(&mut images, workers, progress)?;
+    let done = Done { world: &world, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
+    let mut done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
+    done.warnings.extend(estimate.warning(settings.target_error, layout.texels_per_meter));
     let transport = match settings.keep {
         Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?),
     };
     let report = Report {
         images: images.len(),
@@ -119,6 +138,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
         seed: settings.seed,
         estimated_memory_bytes: needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
+        seams: seam_report,
         stages: log.finish(tracer),
         ..done
     };
@@ -146,36 +166,37 @@ struct Baker<'a, O> {
 }
 
 impl<O: Occluders> Baker<'_, O> {
-    /// Direct irradiance / pi for each receiver, and what is kept of each lamp.
-    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<(Vec<Vec3A>, Vec<LampLight>), Cancelled> {
-        let mut sum = vec![Vec3A::ZERO; self.surfaces.receivers()];
-        let mut kept = Vec::new();
-        for (index, lamp) in lamps.iter().enumerate() {
-            self.pieces.progress.enter_part(index, lamps.len());
-            let strength = lighting.strength(lamp.origin);
-            if strength == Vec3::ZERO && self.keep == Keep::Lightmaps {
-                continue;
+    /// Direct light of each receiver, how far it may be off for each texel, and what is kept of each lamp.
+    ///
+    /// What is kept is linear in the lamps by its nature, and so is the time that it takes.
+    fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<DirectLights, Cancelled> {
+        let mut lights = DirectLights::new(self.surfaces.receivers(), self.is_valid.len());
+        match self.keep {
+            Keep::Lightmaps => {
+                let strong = lamps.iter().map(|lamp| (&lamp.light, lighting.strength(lamp.origin)));
+                lights.add(&self.light(&Lamps::new(strong.collect()), 0)?, Vec3::ONE);
             }
-            let light = self.light(lamp, index)?;
-            sum.iter_mut().zip(&light).for_each(|(sum, light)| *sum += Vec3A::from(strength * *light));
-            match self.keep {
-                Keep::Lightmaps => {}
-                Keep::Transport => kept.extend(LampLight::new(lamp.origin, &light)),
+            Keep::Transport => {
+                for (index, lamp) in lamps.iter().enumerate() {
+                    let light = self.light(&Lamps::new(vec![(&lamp.light, Vec3::ONE)]), index)?;
+                    lights.add(&light, lighting.strength(lamp.origin));
+                    let light: Vec<Vec3> = light.iter().map(|light| light.irradiance).collect();
+                    lights.kept.extend(LampLight::new(lamp.origin, &light));
+                }
             }
         }
-        Ok((sum, kept))
+        Ok(lights)
     }
 
-    /// Irradiance / pi of each receiver from a lamp of strength 1.
-    fn light(&self, lamp: &Lamp, index: usize) -> Result<Vec<Vec3>, Cancelled> {
+    /// Light of each receiver from all of these lamps, of which the first has this index.
+    fn light(&self, lamps: &Lamps, first: usize) -> Result<Vec<DirectTexel>, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
-        let seed = hash(self.seeds.of(2), index as u32);
+        let seed = hash(self.seeds.of(2), first as u32);
         let direct = Direct { texels, is_valid: self.is_valid, tracer, rays: self.budget.shadow, seed };
-        let mut light = direct.light(&lamp.light, workers, progress)?;
+        let mut light = direct.light(lamps, workers, progress)?;
         let bare = &self.surfaces.bare;
-        light.extend(workers.map(bare.len(), 64, progress, |range| {
-            bare[range].iter().map(|&patch| self.pieces.direct_on(patch, &lamp.light)).collect()
-        })?);
+        let on = |&patch: &u32| DirectTexel { irradiance: self.pieces.direct_on(patch, lamps), ..Default::default() };
+        light.extend(workers.map(bare.len(), 64, progress, |range| bare[range].iter().map(on).collect())?);
         Ok(light)
     }
 
@@ -183,7 +204,7 @@ impl<O: Occluders> Baker<'_, O> {
     fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A]) -> Result<Nodes, Cancelled> {
         let Pieces { tracer, texels, patches, workers, progress, .. } = *self.pieces;
         let spread = self.budget.spread();
-        let field = Field { world: tracer.world, texels, patches, surfaces: self.surfaces, spread };
+        let field = Field { tracer, texels, patches, surfaces: self.surfaces, spread };
         let gather = Gather {
             texels,
             is_valid: self.is_valid,
@@ -196,6 +217,29 @@ impl<O: Occluders> Baker<'_, O> {
         };
         let direct: Vec<f32> = direct.iter().map(|direct| direct.element_sum() / 3.0).collect();
         gather.run(&direct, workers, progress)
+    }
+}
+
+/// What comes straight from the lamps.
+struct DirectLights {
+    /// Irradiance / pi for each receiver.
+    sums: Vec<Vec3A>,
+    /// How far that may be off, for each texel.
+    errors: Vec<DirectError>,
+    kept: Vec<LampLight>,
+}
+
+impl DirectLights {
+    fn new(receivers: usize, texels: usize) -> Self {
+        Self { sums: vec![Vec3A::ZERO; receivers], errors: vec![DirectError::default(); texels], kept: Vec::new() }
+    }
+
+    fn add(&mut self, lights: &[DirectTexel], strength: Vec3) {
+        for (index, light) in lights.iter().enumerate() {
+            let light = light.times(strength);
+            self.sums[index] += Vec3A::from(light.irradiance);
+            self.errors.get_mut(index).into_iter().for_each(|error| *error += light.error);
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use core::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 use crate::geometry::{Hit, Occluders, Sobol, cosine_direction, hash};
-use crate::light::DirectLight;
+use crate::light::{Lamps, Receiver};
 use crate::lightmap::{NONE, Patch, Patches, Site, Texels};
 use crate::math;
 use crate::parallel::Workers;
@@ -52,7 +52,9 @@ impl<O: Occluders> Pieces<'_, O> {
             let ray = self.tracer.leave(triangle, point, normal, direction, f32::INFINITY);
             match self.tracer.nearest(&ray, hash(seed, k)) {
                 None => surfaces.sky(),
-                Some(hit) => self.patches.at(self.world(), self.texels, &hit).unwrap_or(surfaces.black()),
+                Some(hit) => {
+                    self.patches.at(self.tracer, self.texels, &hit).map_or(surfaces.black(), |(patch, _)| patch)
+                }
             }
         };
         let mut ends: Vec<u32> = (0..rays).map(end).collect();
@@ -165,11 +167,12 @@ impl<O: Occluders> Pieces<'_, O> {
         let mut weights = Vec::new();
         for k in 0..4 {
             let (right, lower) = (k & 1, k >> 1);
-            let x = i32::from(texel.pixel[0]) + (2 * right - 1) * half;
-            let y = i32::from(texel.pixel[1]) + (2 * lower - 1) * half;
+            let [dx, dy] = [(2 * right - 1) * half, (2 * lower - 1) * half];
+            let [x, y] = [i32::from(texel.pixel[0]) + dx, i32::from(texel.pixel[1]) + dy];
             let Some(other) = self.texels.at_pixel(u32::from(texel.image), x, y) else { continue };
             let patch = of_texel[other as usize];
-            if patch != NONE && self.texels.list[other as usize].chart == texel.chart {
+            let is_near = self.texels.list[other as usize].chart == texel.chart;
+            if patch != NONE && is_near && self.texels.is_connected(index as u32, dx, dy) {
                 let share = |along: f32, side: i32| if side == 1 { along } else { 1.0 - along };
                 weights.push((patch, share(along[0], right) * share(along[1], lower)));
             }
@@ -180,23 +183,29 @@ impl<O: Occluders> Pieces<'_, O> {
         Row::weigh(&mut weights)
     }
 
-    /// Irradiance / pi from a light on a patch without texels on its side, from a few points of it.
-    pub fn direct_on(&self, index: u32, light: &DirectLight) -> Vec3 {
+    /// Irradiance / pi from all lamps on a patch without texels on its side, from a few points of it.
+    pub fn direct_on(&self, index: u32, lamps: &Lamps) -> Vec3 {
         let patch = &self.patches.list[index as usize];
         let sequence = Sobol::new(hash(self.seed ^ 0x00d1_9ec7, index));
+        let site = |k| self.patches.point(self.world(), self.texels, patch, &sequence, k);
+        let sites: [_; DIRECT_POINTS as usize] = core::array::from_fn(|k| site(k as u32));
+        let receiver = Receiver::around(sites.iter().map(|&(_, point, normal)| (point, normal, 0.0)));
+        let cut = lamps.cut(&receiver, sites[0].1, sites[0].2);
         let mut sum = Vec3::ZERO;
-        for k in 0..DIRECT_POINTS {
-            let (triangle, point, normal) = self.patches.point(self.world(), self.texels, patch, &sequence, k);
-            let irradiance = light.irradiance(point, normal);
-            if irradiance == Vec3::ZERO {
-                continue;
-            }
-            let shadow = light.shadow_ray(sequence.square(k), point, normal);
-            if shadow.weight > 0.0 {
-                let ray = self.tracer.leave_for(triangle, point, normal, &shadow);
-                sum += irradiance * self.tracer.visibility(&ray);
+        for (k, &(triangle, point, normal)) in sites.iter().enumerate() {
+            let square = sequence.square(k as u32);
+            let seen = |lamp: u32| {
+                let irradiance = lamps.irradiance(lamp, point, normal);
+                let shadow = lamps.light(lamp).shadow_ray(square, point, normal);
+                if irradiance == Vec3::ZERO || shadow.weight <= 0.0 {
+                    return Vec3::ZERO;
+                }
                 self.tracer.count(1);
-            }
+                irradiance * self.tracer.visibility(&self.tracer.leave_for(triangle, point, normal, &shadow))
+            };
+            sum += cut.lamps.iter().map(|&lamp| seen(lamp)).sum::<Vec3>();
+            let choice = lamps.choose(&cut, point, normal, sequence.dimension(k as u32, 2));
+            sum += choice.map_or(Vec3::ZERO, |choice| seen(choice.lamp) / choice.probability);
         }
         sum / (DIRECT_POINTS as f32 * PI)
     }

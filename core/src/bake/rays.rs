@@ -4,6 +4,9 @@ use super::{BakeSettings, Keep, Quality};
 use crate::lightmap::{Enough, GatherSettings, ShadowRays};
 use crate::math;
 
+/// What a texel may get at most where an error is to be reached.
+const MOST_RAYS: u32 = 8192;
+
 /// Rays for each purpose. Counts are powers of two, as Sobol points like them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RayBudget {
@@ -27,12 +30,26 @@ impl RayBudget {
     pub fn new(settings: &BakeSettings) -> Self {
         let budget = Self::from(settings.quality);
         let gather = match settings.keep {
+            Keep::Lightmaps if settings.target_error > 0.0 => return budget.until(settings.target_error),
             Keep::Lightmaps => budget.gather,
             Keep::Transport => {
                 GatherSettings { contrast: f32::INFINITY, enough: Enough::Rays(budget.kept), ..budget.gather }
             }
         };
         Self { gather, ..budget }
+    }
+
+    /// What is spent until the error is no larger: half of its square may be noise of indirect light, a quarter noise of
+    /// direct light, and the rest lie between texels.
+    fn until(self, error: f32) -> Self {
+        let gather = GatherSettings {
+            most_rays: self.gather.most_rays.max(MOST_RAYS),
+            contrast: self.gather.contrast.min(4.0 * error),
+            enough: Enough::Rms(0.7 * error),
+            ..self.gather
+        };
+        let shadow = ShadowRays { most: self.shadow.most.max(MOST_RAYS), noise: 0.5 * error, ..self.shadow };
+        Self { gather, shadow, ..self }
     }
 
     /// Width of the cone that one gathered ray stands for, at a distance of one meter: `2 / sqrt(cone)`.
@@ -47,43 +64,43 @@ impl From<Quality> for RayBudget {
             Quality::Draft => Self {
                 row: 64,
                 patches: 1024,
-                shadow: ShadowRays { first: 8, sharp: 4, penumbra: 16 },
+                shadow: ShadowRays { first: 8, sharp: 4, most: 32, noise: 0.05 },
                 cone: 16,
                 kept: 32,
                 gather: GatherSettings {
-                    rays: 8,
+                    rays: 16,
                     most_rays: 128,
                     spacing: 0.25,
                     contrast: 0.15,
-                    enough: Enough::Error(0.03),
+                    enough: Enough::Error(0.08),
                 },
             },
             Quality::Medium => Self {
                 row: 128,
                 patches: 4096,
-                shadow: ShadowRays { first: 16, sharp: 8, penumbra: 64 },
+                shadow: ShadowRays { first: 16, sharp: 8, most: 256, noise: 0.02 },
                 cone: 64,
                 kept: 128,
                 gather: GatherSettings {
-                    rays: 16,
+                    rays: 64,
                     most_rays: 1024,
                     spacing: 0.12,
                     contrast: 0.08,
-                    enough: Enough::Error(0.01),
+                    enough: Enough::Error(0.03),
                 },
             },
             Quality::High => Self {
                 row: 256,
                 patches: 16384,
-                shadow: ShadowRays { first: 32, sharp: 16, penumbra: 256 },
+                shadow: ShadowRays { first: 32, sharp: 16, most: 1024, noise: 0.01 },
                 cone: 256,
                 kept: 512,
                 gather: GatherSettings {
-                    rays: 64,
+                    rays: 256,
                     most_rays: 4096,
                     spacing: 0.06,
                     contrast: 0.04,
-                    enough: Enough::Error(0.005),
+                    enough: Enough::Error(0.015),
                 },
             },
         }

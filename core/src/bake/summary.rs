@@ -8,14 +8,13 @@ use glam::Vec3A;
 
 use super::estimate::Estimate;
 use super::{EstimatedError, Report};
-use crate::lightmap::{Layout, Nodes, Smooth, Texels};
+use crate::lightmap::{Layout, Nodes, Smooth};
 use crate::scene::World;
 use crate::transport::{LARGEST_REFLECTANCE, Lighting, Rows, Solution, Surfaces};
 
 /// What a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
 pub(super) struct Done<'a> {
     pub world: &'a World<'a>,
-    pub texels: &'a Texels,
     pub is_valid: &'a [bool],
     pub surfaces: &'a Surfaces,
     pub solution: &'a Solution,
@@ -45,7 +44,11 @@ impl Done<'_> {
             texels_per_meter: layout.texels_per_meter,
             closure_error: self.rows.closure_error(),
             energy_balance: self.solution.energy_balance(self.surfaces, self.rows),
-            estimated_error: EstimatedError { rms: estimate.rms, bias: self.bias(estimate.mean, indirect) },
+            estimated_error: EstimatedError {
+                rms: estimate.rms,
+                noise: estimate.noise,
+                bias: self.bias(estimate.mean, indirect),
+            },
             warnings,
             ..Report::default()
         }

@@ -5,8 +5,8 @@ use core::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::RectLight;
 use super::falloff::range_window;
+use super::{Cone, Emission, RectLight};
 use crate::form_factor::point_to_triangle;
 use crate::geometry::{Sobol, normal_and_area};
 use crate::math;
@@ -120,6 +120,26 @@ impl AreaLight {
         let center =
             if let [_, other] = &self.triangles[..] { (a + other.corners[1]) * 0.5 } else { (a + b + c) / 3.0 };
         range_window(center.distance_squared(point), self.range)
+    }
+
+    /// Where light leaves it, times this strength per channel.
+    pub(super) fn emission(&self, strength: Vec3) -> Emission {
+        let of_triangle = |emitter: &Emitter| {
+            let [a, b, c] = emitter.corners;
+            let area = 0.5 * (b - a).cross(c - a).length();
+            let radiance = level(emitter.radiance * strength);
+            Emission {
+                low: a.min(b).min(c),
+                high: a.max(b).max(c),
+                axes: if self.both_sides { Cone::ALL } else { Cone::one(emitter.normal) },
+                cos_beyond: 0.0,
+                intensity: radiance * area,
+                most: PI * radiance,
+                range: self.range,
+            }
+        };
+        let all = self.triangles.iter().map(of_triangle).reduce(|all, next| all.and(&next));
+        all.unwrap_or(Emission::NONE)
     }
 
     /// Whether the light has no area or no radiance.

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{AreaLight, DirectionalLight, LightSource, PointLight, SpotLight};
+use super::{AreaLight, Cone, DirectionalLight, Emission, LightSource, PointLight, SpotLight};
 use crate::geometry::{cone_direction, tangents};
 use crate::math;
 
@@ -49,6 +49,18 @@ impl DirectLight {
             Self::Spot(light) => light.irradiance(point, normal),
             Self::Directional(light) => light.irradiance(normal),
             Self::Area(light) => light.irradiance(point, normal),
+        }
+    }
+
+    /// Where light leaves it, times this strength per channel; nothing for light from far away, which is everywhere.
+    pub fn emission(&self, strength: Vec3) -> Option<Emission> {
+        match self {
+            Self::Point(light) => Some(light.emission(strength, Cone::ALL)),
+            Self::Spot(SpotLight { point, direction, outer_angle, .. }) => {
+                Some(point.emission(strength, Cone { axis: *direction, cos: math::cos(*outer_angle) }))
+            }
+            Self::Directional(_) => None,
+            Self::Area(light) => Some(light.emission(strength)),
         }
     }
 

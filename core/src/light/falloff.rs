@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{DirectionalLight, PointLight, SpotLight};
+use super::{Cone, DirectionalLight, Emission, PointLight, SpotLight};
 use crate::math;
 
 /// Nearer than this, in meters, intensity grows no further.
@@ -22,6 +22,20 @@ impl PointLight {
         let squared = to_light.length_squared();
         let cos = to_light.dot(normal) / math::sqrt(squared).max(f32::MIN_POSITIVE);
         self.intensity * (cos.max(0.0) * range_window(squared, self.range) / squared.max(NEAREST * NEAREST))
+    }
+
+    /// Where light leaves it into these directions, times this strength per channel.
+    pub(super) fn emission(&self, strength: Vec3, axes: Cone) -> Emission {
+        let intensity = (self.intensity * strength).element_sum() / 3.0;
+        Emission {
+            low: self.position,
+            high: self.position,
+            axes,
+            cos_beyond: 1.0,
+            intensity,
+            most: intensity / (NEAREST * NEAREST),
+            range: self.range,
+        }
     }
 }
 

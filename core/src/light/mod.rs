@@ -3,10 +3,14 @@
 mod area;
 mod direct;
 mod falloff;
+mod lamps;
+mod tree;
 
 pub use area::*;
 pub use direct::*;
 pub use falloff::*;
+pub use lamps::*;
+pub use tree::*;
 
 use alloc::string::String;
 

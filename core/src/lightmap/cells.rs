@@ -27,7 +27,7 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
     /// wide ones first.
     ///
     /// Cells of 8 x 8 texels are split until their corners lie close enough for what they see, down to single texels.
-    /// Few rays say how far that is; the corners of cells that stay get as many as their texels would have had.
+    /// Few rays say how far that is; the corners of cells that may stay get more.
     pub(super) fn place(
         &self,
         nodes: &mut Nodes,
@@ -72,7 +72,7 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
         self.add(wanted, 0, nodes, workers, progress)
     }
 
-    /// Gives the corners of wide cells the rays of all texels that they stand for.
+    /// Gives the corners of wide cells more rays: nothing smooths the light between them.
     fn deepen(
         &self,
         cells: &[Cell],
@@ -82,8 +82,7 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
     ) -> Result<(), Cancelled> {
         let mut wanted = Vec::new();
         for cell in cells {
-            let rays =
-                (self.settings.rays * u32::from(cell.width) * u32::from(cell.width)).min(self.settings.most_rays);
+            let rays = (self.settings.rays * u32::from(cell.width)).min(self.settings.most_rays);
             for corner in self.corners(cell).into_iter().flatten() {
                 let node = &mut nodes.gathered[corner];
                 if node.rays > 0 && node.width < cell.width as u8 {
@@ -119,14 +118,16 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
         self.is_valid[texel].then_some(texel)
     }
 
-    /// Whether a cell has four corners on one flat chart, which lie close for what they see.
+    /// Whether a cell has four corners on one flat chart without walls, which lie close for what they see.
     fn is_open(&self, cell: &Cell, gathered: &[Gathered]) -> bool {
         let [Some(a), Some(b), Some(c), Some(d)] = self.corners(cell) else { return false };
         let corners = [a, b, c, d];
         let first = &self.texels.list[a];
         let side = first.position.distance(self.texels.list[d].position) * 0.707;
         let nearest = corners.iter().map(|&corner| gathered[corner].distance).fold(f32::INFINITY, f32::min);
-        corners.iter().all(|&corner| self.belongs(first, corner)) && side <= self.settings.spacing * nearest
+        let is_clear = |corner: usize| self.texels.links.is_clear(corner as u32, u32::from(cell.width / 2));
+        let is_flat = corners.iter().all(|&corner| self.belongs(first, corner) && is_clear(corner));
+        is_flat && side <= self.settings.spacing * nearest
     }
 
     /// Whether the light at the corners of a cell is much the same.

@@ -1,30 +1,84 @@
-//! Light that reaches a texel straight from a source: closed forms times the visible share.
+//! Light that reaches a texel straight from its sources: closed forms times the visible share.
+//!
+//! Blocks of texels choose their lamps together. A first look tells for each texel and lamp whether all, none or a part
+//! of the lamp is seen; where a part is, or where neighbors disagree, a second look takes as many rays as the noise asks
+//! for. What remains of many lamps is asked by chance.
 
 use alloc::vec::Vec;
 use core::f32::consts::PI;
+use core::ops::Range;
 
 use glam::{Vec2, Vec3};
 
-use super::{Texel, Texels, quarter};
+use super::blocks::{Blocks, bit};
+use super::footprint::Footprint;
+use super::samples::Samples;
+use super::{Texel, Texels};
 use crate::geometry::{Occluders, Sobol, hash};
-use crate::light::DirectLight;
+use crate::light::{Cut, DirectLight, Lamps, Receiver};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::transport::Tracer;
 
-/// How many shadow rays a texel gets for one light. Powers of two are best.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How many shadow rays a texel gets for one lamp. Powers of two are best.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShadowRays {
-    /// For every texel, for a light with an extent; a light without needs one.
+    /// For every texel, for a lamp with an extent; a lamp without needs one.
     pub first: u32,
-    /// Where those, or those of a neighbor, disagree: at the border of shadows, for a light without extent.
+    /// Where those, or those of a neighbor, disagree: at the border of shadows, for a lamp without extent.
     pub sharp: u32,
-    /// The same for a light with an extent: in penumbrae.
-    pub penumbra: u32,
+    /// At most, for a lamp with an extent, in penumbrae, and for all lamps together that are asked by chance.
+    pub most: u32,
+    /// Fewer where the standard error is below this share of the direct light of the texel and a tenth of its mean.
+    pub noise: f32,
 }
 
-/// The light arrives from below the surface: no shadow ray was sent.
-const UNLIT: f32 = -1.0;
+/// A second look at a penumbra starts with so many rays, and so do lamps that are asked by chance.
+const FEWEST: u32 = 8;
+
+/// Direct light of a texel, and how far it may be off.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DirectTexel {
+    /// Irradiance / pi, in cd/m2.
+    pub irradiance: Vec3,
+    /// How far that may be off.
+    pub error: DirectError,
+}
+
+/// How far the direct light of a texel may be off. Irradiance / pi is meant, the mean of its channels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DirectError {
+    /// Variance of the value that was found around the mean over the texel, because rays are few: penumbrae.
+    pub noise: f32,
+    /// Variance of the light within the texel, because an edge of a shadow crosses it: what a lookup at a random point
+    /// of the texel misses. No rays make it smaller, only more texels.
+    pub spread: f32,
+    /// The least light within the texel: with the mean `m` the light is about this in a share `spread / (spread +
+    /// (m - darkest)^2)` of the texel and `m + spread / (m - darkest)` in the rest.
+    pub darkest: f32,
+}
+
+impl DirectTexel {
+    /// The same light from a lamp of another strength.
+    pub fn times(&self, strength: Vec3) -> Self {
+        let irradiance = self.irradiance * strength;
+        let level = self.irradiance.element_sum();
+        let factor = if level > 0.0 { irradiance.element_sum() / level } else { 0.0 };
+        let DirectError { noise, spread, darkest } = self.error;
+        let squared = factor * factor;
+        let error = DirectError { noise: noise * squared, spread: spread * squared, darkest: darkest * factor };
+        Self { irradiance, error }
+    }
+}
+
+impl core::ops::AddAssign for DirectError {
+    /// Errors of different lamps do not depend on each other; edges of their shadows lie in different places.
+    fn add_assign(&mut self, other: Self) {
+        self.noise += other.noise;
+        self.spread += other.spread;
+        self.darkest += other.darkest;
+    }
+}
 
 /// All that direct light needs to know.
 pub struct Direct<'a, O> {
@@ -40,132 +94,265 @@ pub struct Direct<'a, O> {
     pub seed: u32,
 }
 
+/// What a block of texels saw at first.
+struct BlockLook {
+    cut: Cut,
+    /// For each lamp of the cut.
+    looks: Vec<Look>,
+    /// For each texel its light so far, mean of the channels, irradiance / pi.
+    levels: Vec<f32>,
+}
+
+/// Which texels of a block saw something of a lamp, and which found something in the way; neither: it does not shine on
+/// them.
+#[derive(Clone, Copy, Default)]
+struct Look {
+    lit: u64,
+    dark: u64,
+}
+
+impl Look {
+    fn of(&self, bit: u64) -> [bool; 2] {
+        [self.lit & bit != 0, self.dark & bit != 0]
+    }
+}
+
 impl<O: Occluders> Direct<'_, O> {
-    /// Irradiance / pi from one light for each texel, zero for those that are not valid.
-    pub fn light(&self, light: &DirectLight, workers: &Workers, progress: &Progress) -> Result<Vec<Vec3>, Cancelled> {
-        let count = self.texels.list.len();
-        let shares =
-            workers.map(count, 512, progress, |range| range.map(|index| self.first_look(light, index)).collect())?;
-        let light_of = |index: usize| {
-            let share = shares[index];
-            if share == UNLIT && !self.has_lit_neighbor(index, &shares) {
-                Vec3::ZERO
-            } else if self.is_border(index, &shares) {
-                self.second_look(light, index)
-            } else {
-                let Texel { position, normal, .. } = self.texels.list[index];
-                light.irradiance(position, normal) * share.max(0.0)
+    /// Light from all lamps for each texel, zero for those that are not valid.
+    ///
+    /// # Errors
+    ///
+    /// Where the progress was told to cancel.
+    pub fn light(&self, lamps: &Lamps, workers: &Workers, progress: &Progress) -> Result<Vec<DirectTexel>, Cancelled> {
+        let blocks = Blocks::new(self.texels);
+        let count = blocks.list.len();
+        progress.enter_part(0, 2);
+        let looks = workers.map(count, 8, progress, |range| {
+            range.map(|block| self.first_look(lamps, blocks.list[block].clone())).collect()
+        })?;
+        let valid = self.is_valid.iter().filter(|&&is_valid| is_valid).count();
+        let mean = looks.iter().flat_map(|look| &look.levels).sum::<f32>() / valid.max(1) as f32;
+        progress.enter_part(1, 2);
+        workers.map(count, 8, progress, |range| {
+            range.flat_map(|block| self.second_look(lamps, &blocks, &looks, block, mean)).collect()
+        })
+    }
+
+    /// What a block of texels sees from the middles of its texels by few rays.
+    fn first_look(&self, lamps: &Lamps, block: Range<u32>) -> BlockLook {
+        let cut = self.cut(lamps, block.clone());
+        let mut levels = alloc::vec![0.0; block.len()];
+        let looks = cut.lamps.iter().map(|&lamp| {
+            let mut look = Look::default();
+            for (index, level) in block.clone().zip(&mut levels) {
+                let Texel { position, normal, .. } = self.texels.list[index as usize];
+                let irradiance = lamps.irradiance(lamp, position, normal);
+                if !self.is_valid[index as usize] || irradiance == Vec3::ZERO {
+                    continue;
+                }
+                let share = self.first_share(lamps.light(lamp), lamp, index);
+                let bit = bit(&self.texels.list[index as usize]);
+                look.lit |= if share > 0.0 { bit } else { 0 };
+                look.dark |= if share < 1.0 { bit } else { 0 };
+                *level += share * irradiance.element_sum() / (3.0 * PI);
             }
-        };
-        workers.map(count, 512, progress, |range| range.map(|index| light_of(index) / PI).collect())
+            look
+        });
+        let looks = looks.collect();
+        BlockLook { cut, looks, levels }
     }
 
-    /// The visible share of the light from the middle of a texel, by few rays, or [`UNLIT`].
-    fn first_look(&self, light: &DirectLight, index: usize) -> f32 {
-        let Texel { position, normal, .. } = self.texels.list[index];
-        if !self.is_valid[index] || light.irradiance(position, normal) == Vec3::ZERO {
-            return UNLIT;
-        }
-        let rays = if light.is_sharp() { 1 } else { self.rays.first };
-        let sequence = Sobol::new(hash(self.seed, index as u32));
-        self.share(light, index, rays, &sequence, |_| position)
+    /// Which lamps to ask one by one.
+    fn cut(&self, lamps: &Lamps, block: Range<u32>) -> Cut {
+        let valid = block.filter(|&index| self.is_valid[index as usize]).map(|index| {
+            let texel = &self.texels.list[index as usize];
+            (texel.position, texel.normal, Footprint::new(texel, self.texels, self.tracer.world).reach())
+        });
+        let Some((middle, normal, _)) = valid.clone().nth(valid.clone().count() / 2) else { return Cut::default() };
+        lamps.cut(&Receiver::around(valid), middle, normal)
     }
 
-    /// Irradiance by many rays from all over a texel.
-    fn second_look(&self, light: &DirectLight, index: usize) -> Vec3 {
-        let texel = &self.texels.list[index];
-        let points = Footprint::new(texel, self.texels, self.tracer);
-        let sequence = Sobol::new(hash(self.seed, index as u32));
+    fn first_share(&self, light: &DirectLight, lamp: u32, index: u32) -> f32 {
+        let position = self.texels.list[index as usize].position;
+        let sequence = self.sequence(lamp, index);
         if light.is_sharp() {
-            let rays = self.rays.sharp;
-            let lit = |k: u32| {
-                let point = points.point(&sequence, k);
-                let share = self.share(light, index, 1, &sequence, |_| point);
-                light.irradiance(point, texel.normal) * share
-            };
-            return (0..rays).map(lit).sum::<Vec3>() / rays as f32;
+            let [weight, value] = self.sample(light, index, &sequence, 0, position);
+            return if weight > 0.0 { value / weight } else { 0.0 };
         }
-        let share = self.share(light, index, self.rays.penumbra, &sequence, |k| points.point(&sequence, k));
-        light.irradiance(texel.position, texel.normal) * share
+        let mut samples = Samples::default();
+        self.sample_more(&mut samples, light, index, &sequence, self.rays.first, |_| position);
+        samples.mean()
     }
 
-    /// Visible share of the light: the weights of the rays that arrive over the weights of all.
-    fn share(
+    fn sequence(&self, lamp: u32, index: u32) -> Sobol {
+        Sobol::new(hash(hash(self.seed, lamp), index))
+    }
+
+    /// The light of a block of texels, with more rays where the first were not enough.
+    fn second_look(
         &self,
-        light: &DirectLight,
-        index: usize,
-        rays: u32,
-        sequence: &Sobol,
-        point: impl Fn(u32) -> Vec3,
-    ) -> f32 {
-        let texel = &self.texels.list[index];
-        let flat = self.tracer.world.normals[texel.triangle as usize];
-        let (mut all, mut arrived) = (0.0, 0.0);
-        for k in 0..rays {
-            let from = point(k);
-            let ray = light.shadow_ray(sequence.square(k), from, texel.normal);
-            if ray.weight > 0.0 && ray.direction.dot(flat) > 0.0 {
-                let visibility = self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray));
-                arrived += ray.weight * visibility;
-                self.tracer.count(1);
+        lamps: &Lamps,
+        blocks: &Blocks,
+        looks: &[BlockLook],
+        block: usize,
+        mean: f32,
+    ) -> Vec<DirectTexel> {
+        let (range, own) = (blocks.list[block].clone(), &looks[block]);
+        let tolerated = |k: usize| self.rays.noise * (own.levels[k] + 0.1 * mean);
+        let mut sums: Vec<DirectTexel> = range.clone().map(|_| DirectTexel::default()).collect();
+        let neighbors: Vec<_> = range.clone().map(|index| self.neighbors(blocks, block as u32, index)).collect();
+        for (slot, &lamp) in own.cut.lamps.iter().enumerate() {
+            let look_of = |other: u32| looks[other as usize].of(lamp);
+            for (k, index) in range.clone().enumerate() {
+                let texel = &self.texels.list[index as usize];
+                let seen = own.looks[slot].of(bit(texel));
+                let is_unlit = seen == [false; 2];
+                if is_unlit {
+                    continue;
+                }
+                let agrees = |&(other, bit): &(u32, u64)| {
+                    let seen_there =
+                        if other == block as u32 { own.looks[slot].of(bit) } else { look_of(other).of(bit) };
+                    seen_there == seen || seen_there == [false; 2]
+                };
+                let is_border = seen == [true; 2] || !neighbors[k].iter().flatten().all(agrees);
+                let light = match seen {
+                    _ if is_border => self.by_many_rays(lamps, lamp, index, tolerated(k)),
+                    [true, _] => certain(lamps.irradiance(lamp, texel.position, texel.normal)),
+                    _ => continue,
+                };
+                sums[k].irradiance += light.irradiance;
+                sums[k].error += light.error;
             }
-            all += ray.weight.max(0.0);
         }
-        if all > 0.0 { arrived / all } else { 0.0 }
+        for (k, index) in range.enumerate().filter(|(_, index)| self.is_valid[*index as usize]) {
+            let rest = self.by_chance(lamps, &own.cut, index, tolerated(k));
+            sums[k].irradiance += rest.irradiance;
+            sums[k].error += rest.error;
+        }
+        sums
     }
 
-    /// Whether a shadow ends in or beside this texel.
-    fn is_border(&self, index: usize, shares: &[f32]) -> bool {
-        let own = shares[index];
-        (own > 0.0 && own < 1.0) || self.neighbors(index).any(|other| shares[other] != own)
+    /// Light by many rays from all over a texel.
+    fn by_many_rays(&self, lamps: &Lamps, lamp: u32, index: u32, tolerated: f32) -> DirectTexel {
+        let texel = &self.texels.list[index as usize];
+        let points = Footprint::new(texel, self.texels, self.tracer.world);
+        let (light, sequence) = (lamps.light(lamp), self.sequence(lamp, index));
+        if light.is_sharp() {
+            return self.sharp(lamps, lamp, index, &points, &sequence);
+        }
+        let full = certain(lamps.irradiance(lamp, texel.position, texel.normal));
+        let (mut samples, mut rays) = (Samples::default(), FEWEST.max(self.rays.first));
+        let place = |k| points.point(&sequence, k, 2);
+        loop {
+            self.sample_more(&mut samples, light, index, &sequence, rays, place);
+            let (share, noise) = (samples.mean(), samples.variance() * full.error.darkest * full.error.darkest);
+            if rays >= self.rays.most || noise <= tolerated * tolerated {
+                let error = DirectError { noise, spread: 0.0, darkest: full.error.darkest * share };
+                return DirectTexel { irradiance: full.irradiance * share, error };
+            }
+            rays *= 2;
+        }
     }
 
-    fn has_lit_neighbor(&self, index: usize, shares: &[f32]) -> bool {
-        self.is_valid[index] && self.neighbors(index).any(|other| shares[other] != UNLIT)
+    /// Light from a lamp without extent, by rays from all over a texel.
+    fn sharp(&self, lamps: &Lamps, lamp: u32, index: u32, points: &Footprint, sequence: &Sobol) -> DirectTexel {
+        let normal = self.texels.list[index as usize].normal;
+        let (mut sum, mut levels) = (Vec3::ZERO, Samples::default());
+        for k in 0..self.rays.sharp {
+            let point = points.point(sequence, k, 0);
+            let [weight, value] = self.sample(lamps.light(lamp), index, sequence, k, point);
+            let share = if weight > 0.0 { value / weight } else { 0.0 };
+            let lit = lamps.irradiance(lamp, point, normal) * (share / PI);
+            sum += lit;
+            levels.put(sequence.square(k), 1.0, lit.element_sum() / 3.0);
+        }
+        let error = DirectError { noise: levels.variance(), spread: levels.spread(), darkest: levels.least() };
+        DirectTexel { irradiance: sum / self.rays.sharp as f32, error }
     }
 
-    /// The valid texels of the same chart among the eight around a texel.
-    fn neighbors(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
-        let Texel { pixel: [x, y], image, chart, .. } = self.texels.list[index];
-        (0..9).filter(|&k| k != 4).filter_map(move |k| {
-            let (x, y) = (i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1);
-            let other = self.texels.at_pixel(u32::from(image), x, y)? as usize;
-            (self.texels.list[other].chart == chart && self.is_valid[other]).then_some(other)
+    /// Light from the lamps that were not asked one by one: for each ray one of them, the likelier the more it may give.
+    fn by_chance(&self, lamps: &Lamps, cut: &Cut, index: u32, tolerated: f32) -> DirectTexel {
+        if cut.rest() <= 0.0 {
+            return DirectTexel::default();
+        }
+        let Texel { position, normal, .. } = self.texels.list[index as usize];
+        let sequence = self.sequence(u32::MAX, index);
+        let (mut sum, mut samples, mut done, mut rays) = (Vec3::ZERO, Samples::line(), 0, FEWEST);
+        loop {
+            for k in done..rays {
+                let number = sequence.dimension(k, 2);
+                let lit = lamps.choose(cut, position, normal, number).map_or(Vec3::ZERO, |choice| {
+                    let irradiance = lamps.irradiance(choice.lamp, position, normal);
+                    let [weight, value] = self.sample(lamps.light(choice.lamp), index, &sequence, k, position);
+                    let share = if weight > 0.0 { value / weight } else { 0.0 };
+                    irradiance * (share / (choice.probability * PI))
+                });
+                sum += lit;
+                samples.put(Vec2::new(number, 0.0), 1.0, lit.element_sum() / 3.0);
+            }
+            let noise = samples.variance();
+            if rays >= self.rays.most || noise <= tolerated * tolerated {
+                let error = DirectError { noise, spread: 0.0, darkest: samples.mean() };
+                return DirectTexel { irradiance: sum / rays as f32, error };
+            }
+            (done, rays) = (rays, 2 * rays);
+        }
+    }
+
+    /// Takes rays to points of a lamp until there are so many, each with its weight.
+    fn sample_more(
+        &self,
+        samples: &mut Samples,
+        light: &DirectLight,
+        index: u32,
+        sequence: &Sobol,
+        rays: u32,
+        point: impl Fn(u32) -> Vec3,
+    ) {
+        for k in samples.count()..rays {
+            let [weight, value] = self.sample(light, index, sequence, k, point(k));
+            samples.put(sequence.square(k), weight, value);
+        }
+    }
+
+    /// The weight of a ray to a point of a lamp, and as much of it as arrives.
+    fn sample(&self, light: &DirectLight, index: u32, sequence: &Sobol, k: u32, from: Vec3) -> [f32; 2] {
+        let texel = &self.texels.list[index as usize];
+        let flat = self.tracer.world.normals[texel.triangle as usize];
+        let ray = light.shadow_ray(sequence.square(k), from, texel.normal);
+        let weight = ray.weight.max(0.0);
+        if weight <= 0.0 || ray.direction.dot(flat) <= 0.0 {
+            return [weight, 0.0];
+        }
+        self.tracer.count(1);
+        [weight, weight * self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray))]
+    }
+
+    /// The valid texels of the same chart among the eight around a texel, each by its block and its bit.
+    fn neighbors(&self, blocks: &Blocks, block: u32, index: u32) -> [Option<(u32, u64)>; 8] {
+        let Texel { pixel: [x, y], image, chart, .. } = self.texels.list[index as usize];
+        core::array::from_fn(|k| {
+            let k = if k < 4 { k } else { k + 1 } as i32;
+            let other = self.texels.at_pixel(u32::from(image), i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1)?;
+            let texel = &self.texels.list[other as usize];
+            let counts = texel.chart == chart && self.is_valid[other as usize];
+            let is_inside = blocks.list[block as usize].contains(&other);
+            counts.then(|| (if is_inside { block } else { blocks.of(texel) }, bit(texel)))
         })
     }
 }
 
-/// The points of a texel from which light is looked for.
-struct Footprint {
-    center: Vec3,
-    steps: [Vec3; 2],
-    /// Centers of the covered quarters, as offsets from the center of the texel.
-    quarters: [Vec2; 4],
-    covered: usize,
+impl BlockLook {
+    /// What the texels of the block saw of a lamp.
+    fn of(&self, lamp: u32) -> Look {
+        self.cut.lamps.binary_search(&lamp).map_or(Look::default(), |slot| self.looks[slot])
+    }
 }
 
-impl Footprint {
-    fn new<O: Occluders>(texel: &Texel, texels: &Texels, tracer: &Tracer<O>) -> Self {
-        let mut footprint = Self {
-            center: texel.position,
-            steps: texels.steps(tracer.world, texel.triangle),
-            quarters: [Vec2::ZERO; 4],
-            covered: 0,
-        };
-        for k in (0..4).filter(|k| texel.quarters >> k & 1 == 1) {
-            footprint.quarters[footprint.covered] = quarter(k) - Vec2::splat(0.5);
-            footprint.covered += 1;
-        }
-        footprint
-    }
-
-    /// Point `k`: all over a texel that is covered, else one of the middles of its covered quarters, else its own.
-    fn point(&self, sequence: &Sobol, k: u32) -> Vec3 {
-        let offset = match self.covered {
-            4 => Vec2::new(sequence.dimension(k, 2), sequence.dimension(k, 3)) - Vec2::splat(0.5),
-            0 => Vec2::ZERO,
-            covered => self.quarters[k as usize % covered],
-        };
-        self.center + self.steps[0] * offset.x + self.steps[1] * offset.y
-    }
+/// Light without doubt.
+fn certain(irradiance: Vec3) -> DirectTexel {
+    let irradiance = irradiance / PI;
+    let error = DirectError { darkest: irradiance.element_sum() / 3.0, ..DirectError::default() };
+    DirectTexel { irradiance, error }
 }

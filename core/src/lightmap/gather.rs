@@ -14,7 +14,7 @@ use crate::transport::{Keep, Row, Tracer};
 /// How densely light is gathered, and with how many rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GatherSettings {
-    /// Rays of a node to begin with, for each texel that it stands for.
+    /// Rays of a node to begin with; the corners of wide cells get more, with their width.
     pub rays: u32,
     /// Most rays of a node.
     pub most_rays: u32,
