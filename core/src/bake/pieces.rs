@@ -7,7 +7,7 @@ use core::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 use crate::geometry::{Hit, Occluders, Sobol, cosine_direction, hash};
-use crate::light::{Lamps, Receiver};
+use crate::light::{Lamps, Region};
 use crate::lightmap::{NONE, Patch, Patches, Site, Texels};
 use crate::math;
 use crate::parallel::Workers;
@@ -189,8 +189,8 @@ impl<O: Occluders> Pieces<'_, O> {
         let sequence = Sobol::new(hash(self.seed ^ 0x00d1_9ec7, index));
         let site = |k| self.patches.point(self.world(), self.texels, patch, &sequence, k);
         let sites: [_; DIRECT_POINTS as usize] = core::array::from_fn(|k| site(k as u32));
-        let receiver = Receiver::around(sites.iter().map(|&(_, point, normal)| (point, normal, 0.0)));
-        let cut = lamps.cut(&receiver, sites[0].1, sites[0].2);
+        let region = Region::around(sites.iter().map(|&(_, point, normal)| (point, normal, 0.0)));
+        let cut = lamps.cut(&region, sites[0].1, sites[0].2);
         let mut sum = Vec3::ZERO;
         for (k, &(triangle, point, normal)) in sites.iter().enumerate() {
             let square = sequence.square(k as u32);

@@ -45,7 +45,7 @@ pub struct Cone {
 
 /// Where light arrives: a box with normals, or a point.
 #[derive(Clone, Copy, Debug)]
-pub struct Receiver {
+pub struct Region {
     /// Lowest corner of the box around all points, in meters.
     pub low: Vec3,
     /// Highest corner of that box.
@@ -145,7 +145,7 @@ impl Angle {
     }
 }
 
-impl Receiver {
+impl Region {
     /// A point with a normal of length 1.
     pub fn point(point: Vec3, normal: Vec3) -> Self {
         Self { low: point, high: point, normals: Cone::one(normal) }
@@ -188,26 +188,26 @@ impl Emission {
         }
     }
 
-    /// More irradiance than this does not arrive anywhere at the receiver, in lx, mean of the channels.
-    pub fn bound(&self, receiver: &Receiver) -> f32 {
-        let gap = (self.low - receiver.high).max(receiver.low - self.high).max(Vec3::ZERO);
+    /// More irradiance than this does not arrive anywhere at the region, in lx, mean of the channels.
+    pub fn bound(&self, region: &Region) -> f32 {
+        let gap = (self.low - region.high).max(region.low - self.high).max(Vec3::ZERO);
         let squared = gap.length_squared();
-        self.most.min(self.intensity_towards(receiver) * range_window(squared, self.range) / squared.max(1e-12))
+        self.most.min(self.intensity_towards(region) * range_window(squared, self.range) / squared.max(1e-12))
     }
 
     /// What arrives there, about, in lx: zero only where [`Self::bound`] is.
-    fn estimate(&self, receiver: &Receiver) -> f32 {
-        let gap = (self.low - receiver.high).max(receiver.low - self.high).max(Vec3::ZERO);
+    fn estimate(&self, region: &Region) -> f32 {
+        let gap = (self.low - region.high).max(region.low - self.high).max(Vec3::ZERO);
         let window = range_window(gap.length_squared(), self.range);
-        let apart = 0.25 * (self.low + self.high - receiver.low - receiver.high).length_squared();
+        let apart = 0.25 * (self.low + self.high - region.low - region.high).length_squared();
         let extent = 0.0625 * (self.high - self.low).length_squared();
-        self.most.min(self.intensity_towards(receiver) * window / apart.max(extent).max(1e-12))
+        self.most.min(self.intensity_towards(region) * window / apart.max(extent).max(1e-12))
     }
 
-    /// Greatest intensity times the cosine at the receiver, over all pairs of points.
-    fn intensity_towards(&self, receiver: &Receiver) -> f32 {
-        let to_lamp = 0.5 * (self.low + self.high - receiver.low - receiver.high);
-        let reach = 0.5 * ((self.high - self.low).length() + (receiver.high - receiver.low).length());
+    /// Greatest intensity times the cosine at the region, over all pairs of points.
+    fn intensity_towards(&self, region: &Region) -> f32 {
+        let to_lamp = 0.5 * (self.low + self.high - region.low - region.high);
+        let reach = 0.5 * ((self.high - self.low).length() + (region.high - region.low).length());
         let distance = to_lamp.length();
         if distance <= reach {
             return self.intensity;
@@ -216,7 +216,7 @@ impl Emission {
         // The directions between all pairs of points.
         let sin = reach / distance;
         let all = Angle { cos: math::sqrt(1.0 - sin * sin), sin };
-        let cos = receiver.normals.cos_to(direction, all) + SLACK;
+        let cos = region.normals.cos_to(direction, all) + SLACK;
         let cos_lamp = self.axes.cos_to(-direction, all) + SLACK;
         if cos_lamp < self.cos_beyond { 0.0 } else { self.intensity * cos.max(0.0) * cos_lamp.clamp(0.0, 1.0 + SLACK) }
     }
@@ -255,14 +255,14 @@ impl LightTree {
         emission
     }
 
-    /// The strongest lamps at a receiver, as bounds have it, one by one, until what remains is at most `share` of their
+    /// The strongest lamps at a region, as bounds have it, one by one, until what remains is at most `share` of their
     /// light or there are `most` of them. Lamps of which nothing can arrive are left out.
     ///
     /// `light` tells what a lamp gives there, in lx.
-    pub fn cut(&self, receiver: &Receiver, most: usize, share: f32, light: impl Fn(u32) -> f32) -> Cut {
+    pub fn cut(&self, region: &Region, most: usize, share: f32, light: impl Fn(u32) -> f32) -> Cut {
         let mut cut = Cut::default();
         let (mut open, mut of_lamps, mut of_rest) = (Open::default(), 0.0, 0.0);
-        let bound = |node: u32| self.nodes[node as usize].emission.bound(receiver);
+        let bound = |node: u32| self.nodes[node as usize].emission.bound(region);
         if !self.nodes.is_empty() {
             of_rest += open.push(bound(0), 0);
         }
@@ -281,20 +281,20 @@ impl LightTree {
         }
         cut.lamps.sort_unstable();
         cut.set_rest(open.0.into_iter().map(|(_, node)| node).collect(), |node| {
-            self.nodes[node as usize].emission.estimate(receiver)
+            self.nodes[node as usize].emission.estimate(region)
         });
         cut
     }
 
     /// A lamp among the rest of a cut for a point of it, by a number in `[0, 1)`: the likelier the more it may give.
-    pub fn choose(&self, cut: &Cut, receiver: &Receiver, number: f32) -> Option<Choice> {
+    pub fn choose(&self, cut: &Cut, region: &Region, number: f32) -> Option<Choice> {
         let (mut node, mut probability, mut number) = cut.choose(number)?;
         loop {
             let second = match self.nodes[node as usize].below {
                 Below::Lamp(lamp) => return Some(Choice { lamp, probability }),
                 Below::Second(second) => second,
             };
-            let [a, b] = [node + 1, second].map(|child| self.nodes[child as usize].emission.estimate(receiver));
+            let [a, b] = [node + 1, second].map(|child| self.nodes[child as usize].emission.estimate(region));
             if a + b <= 0.0 {
                 return None;
             }

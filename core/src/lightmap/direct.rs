@@ -15,7 +15,7 @@ use super::footprint::Footprint;
 use super::samples::Samples;
 use super::{Texel, Texels};
 use crate::geometry::{Occluders, Sobol, hash};
-use crate::light::{Cut, DirectLight, Lamps, Receiver};
+use crate::light::{Cut, DirectLight, Lamps, Region};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::transport::Tracer;
@@ -169,7 +169,7 @@ impl<O: Occluders> Direct<'_, O> {
             (texel.position, texel.normal, Footprint::new(texel, self.texels, self.tracer.world).reach())
         });
         let Some((middle, normal, _)) = valid.clone().nth(valid.clone().count() / 2) else { return Cut::default() };
-        lamps.cut(&Receiver::around(valid), middle, normal)
+        lamps.cut(&Region::around(valid), middle, normal)
     }
 
     fn first_share(&self, light: &DirectLight, lamp: u32, index: u32) -> f32 {

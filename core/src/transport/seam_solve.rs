@@ -17,7 +17,9 @@ const TOLERANCE: f32 = 3e-3;
 const MOST_ITERATIONS: usize = 60;
 /// Rows that are worked on together.
 const CHUNK: usize = 4096;
-/// How stiff the light is across a border of a chart, against half a texel of a seam.
+/// How much both sides of half a texel of a seam must agree, against all below.
+const AGREEMENT: f32 = 4.0;
+/// How stiff the light is across a border of a chart.
 const BENDING: f32 = 0.05;
 /// How firmly texels side by side change alike.
 const FADING: f32 = 0.15;
@@ -32,7 +34,7 @@ pub struct SeamSolver<'a> {
     /// Where in `entries` each row ends.
     ends: Vec<u32>,
     /// Columns and numbers of the matrix.
-    pub entries: Vec<(u32, f32)>,
+    entries: Vec<(u32, f32)>,
     /// 1 / diagonal.
     inverse: Vec<f32>,
 }
@@ -180,7 +182,7 @@ impl Users {
         let mut row = vec![(texel, seams.holds[texel as usize])];
         for &point in self.points.of(texel) {
             let point = &seams.points[point as usize];
-            add_square(&mut row, texel, &point.difference(), point.weight);
+            add_square(&mut row, texel, &point.difference(), AGREEMENT * point.weight);
         }
         for &index in self.rows.of(texel) {
             let [outside, border, inside] = seams.rows[index as usize];

@@ -16,7 +16,7 @@ use super::{LightmapImage, Texels};
 use crate::geometry::Occluders;
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
-use crate::transport::{Sample, SeamPoint, SeamSolver, SeamSteps, Tracer};
+use crate::transport::{Sample, SeamPoint, SeamSolver, Tracer};
 use matching::{Matching, Meeting};
 
 pub use crate::transport::Seams;
@@ -66,24 +66,13 @@ impl Seams {
         workers: &Workers,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
-        let t0 = progress.seconds();
         let edges = edges::open(tracer.world, texels);
-        let t1 = progress.seconds();
         let tree = tree::Tree::new(&edges);
         let matching = Matching { edges: &edges, tree: &tree, tracer };
         let meetings: Vec<Meeting> =
             workers.map(edges.len(), 64, progress, |range| range.flat_map(|edge| matching.meetings(edge)).collect())?;
-        let t2 = progress.seconds();
-        let seams = Numbering { texels, is_valid, errors, tracer, usual: mean_square(errors) }
-            .seams(&meetings, workers, progress)?;
-        std::eprintln!(
-            "SEAM edges {} {:.3} match {:.3} number {:.3}",
-            edges.len(),
-            t1 - t0,
-            t2 - t1,
-            progress.seconds() - t2
-        );
-        Ok(seams)
+        let numbering = Numbering { texels, is_valid, errors, usual: mean_square(errors), tracer };
+        numbering.seams(&meetings, workers, progress)
     }
 
     /// Makes both sides of all seams agree in the images of a bake.
@@ -100,19 +89,7 @@ impl Seams {
         let mean = mean_light(images);
         let mut light = self.gather(images.iter().map(|image| &image.texels[..]));
         let before = self.steps(&light, mean);
-        let t0 = progress.seconds();
-        let solver = SeamSolver::new(self, workers, progress)?;
-        let t1 = progress.seconds();
-        let n = solver.solve(&mut light, workers, progress)?;
-        std::eprintln!(
-            "SEAM set up {:.3} solve {:.3} iterations {n} touched {} points {} rows {} entries {}",
-            t1 - t0,
-            progress.seconds() - t1,
-            self.touched(),
-            self.points.len(),
-            self.rows.len(),
-            solver.entries.len()
-        );
+        SeamSolver::new(self, workers, progress)?.solve(&mut light, workers, progress)?;
         self.scatter(&light, images.iter_mut().map(|image| &mut image.texels[..]));
         let after = self.steps(&light, mean);
         Ok(SeamReport {
