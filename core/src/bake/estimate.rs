@@ -69,7 +69,7 @@ impl Estimate {
         }
         let percent = |error: f32| format!("{:.1} %", 100.0 * error);
         let (rms, wanted_text, noise) = (percent(self.rms), percent(wanted), percent(self.noise));
-        let remedy = if self.noise > 0.7 * wanted {
+        let remedy = if self.noise > wanted {
             String::from("no texel gets more rays than that; choose a higher quality")
         } else {
             format!(

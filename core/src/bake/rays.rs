@@ -39,17 +39,29 @@ impl RayBudget {
         Self { gather, ..budget }
     }
 
-    /// What is spent until the error is no larger: half of its square may be noise of indirect light, a quarter noise of
-    /// direct light, and the rest lie between texels.
+    /// What is spent until the error is no larger: a quarter of its square may be noise of indirect light, as much noise of
+    /// direct light, and the rest lie between texels. What no rays mend is as fine as a quality of that error has it.
     fn until(self, error: f32) -> Self {
+        let fit = Self::from(match error {
+            ..0.008 => Quality::High,
+            ..0.025 => Quality::Medium,
+            _ => Quality::Draft,
+        });
         let gather = GatherSettings {
-            most_rays: self.gather.most_rays.max(MOST_RAYS),
-            contrast: self.gather.contrast.min(4.0 * error),
-            enough: Enough::Rms(0.7 * error),
+            most_rays: MOST_RAYS,
+            spacing: self.gather.spacing.min(fit.gather.spacing),
+            contrast: self.gather.contrast.min(fit.gather.contrast),
+            enough: Enough::Rms(0.5 * error),
             ..self.gather
         };
-        let shadow = ShadowRays { most: self.shadow.most.max(MOST_RAYS), noise: 0.5 * error, ..self.shadow };
-        Self { gather, shadow, ..self }
+        let shadow = ShadowRays {
+            first: self.shadow.first.max(fit.shadow.first),
+            sharp: self.shadow.sharp.max(fit.shadow.sharp),
+            most: MOST_RAYS,
+            noise: 0.5 * error,
+        };
+        let (row, patches, cone) = (self.row.max(fit.row), self.patches.max(fit.patches), self.cone.max(fit.cone));
+        Self { row, patches, shadow, gather, cone, ..self }
     }
 
     /// Width of the cone that one gathered ray stands for, at a distance of one meter: `2 / sqrt(cone)`.
