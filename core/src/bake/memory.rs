@@ -17,7 +17,7 @@ const PATCH: u64 = 150;
 const ENTRY: u64 = 8;
 /// For each covered texel of a transport: how it is mixed, its places, and what lamps give it.
 const KEPT: u64 = 200;
-/// For each of twice the rays of a texel, as refined ones have, while rows of transport are made one after the other.
+/// For each ray of a texel, while rows of transport are made one after the other.
 const KEPT_ENTRY: u64 = 6;
 
 /// An upper estimate of the memory that a bake needs beside the scene, in bytes.
@@ -42,7 +42,7 @@ pub(super) fn check(
     let patches = (texels / 64).max(budget.patches as u64).min(texels) * 2 + without;
     let kept = match settings.keep {
         Keep::Lightmaps => 0,
-        Keep::Transport => KEPT + u64::from(budget.gather.rays) * 2 * KEPT_ENTRY,
+        Keep::Transport => KEPT + u64::from(budget.kept) * KEPT_ENTRY,
     };
     let needed = triangles * TRIANGLE
         + texels * (TEXEL + COVERED + kept)
