@@ -16,6 +16,8 @@ mod no_bvh;
 
 #[cfg(feature = "bvh")]
 mod bvh;
+#[cfg(feature = "bvh")]
+mod wide;
 
 #[cfg(feature = "bvh")]
 pub use bvh::*;

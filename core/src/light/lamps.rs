@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::Vec3;
 
-use super::{Choice, Cut, DirectLight, LightTree, Receiver};
+use super::{Choice, Cut, DirectLight, Guide, LightTree, Region};
 
 /// Up to so many lamps are all asked one by one, wherever their light may arrive.
 const FEW: usize = 32;
@@ -55,18 +55,18 @@ impl<'a> Lamps<'a> {
         light.irradiance(point, normal) * strength
     }
 
-    /// Which lamps are to be asked one by one at a receiver, of which this is the middle and its normal.
-    pub fn cut(&self, receiver: &Receiver, middle: Vec3, normal: Vec3) -> Cut {
+    /// Which lamps are to be asked one by one at a region, of which this is the middle and its normal.
+    pub fn cut(&self, region: &Region, middle: Vec3, normal: Vec3) -> Cut {
         let light = |lamp: u32| self.irradiance(lamp, middle, normal).element_sum() / 3.0;
         let (most, share) = if self.list.len() <= FEW { (FEW, 0.0) } else { (STRONGEST, REST) };
-        let mut cut = self.tree.cut(receiver, most, share, light);
+        let mut cut = self.tree.cut(region, most, share, light);
         cut.lamps.extend(&self.everywhere);
         cut.lamps.sort_unstable();
         cut
     }
 
     /// One of the lamps that a cut leaves out, for a point with its normal, by a number in `[0, 1)`.
-    pub fn choose(&self, cut: &Cut, point: Vec3, normal: Vec3, number: f32) -> Option<Choice> {
-        self.tree.choose(cut, &Receiver::point(point, normal), number)
+    pub fn choose(&self, cut: &Cut, guide: &Guide, point: Vec3, normal: Vec3, number: f32) -> Option<Choice> {
+        self.tree.choose(cut, guide, &Region::point(point, normal), number)
     }
 }

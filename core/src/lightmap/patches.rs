@@ -212,7 +212,7 @@ fn cells(texels: &Texels, is_valid: &[bool], cell: u32) -> Vec<(u64, u32)> {
 
 /// Gives the parts of a cell that walls part keys of their own: the lowest six bits number them.
 fn part(texels: &Texels, cell: &mut [(u64, u32)]) {
-    if !cell.iter().any(|&(_, texel)| texels.links.is_cut(texel)) {
+    if cell.iter().all(|&(_, texel)| texels.links.is_clear(texel, 0)) {
         return;
     }
     let member = |texel: u32| cell.binary_search_by_key(&texel, |&(_, texel)| texel).ok();

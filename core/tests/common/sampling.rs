@@ -10,7 +10,6 @@ use radiosity::scene::Scene;
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     pub surface: usize,
-    pub triangle: usize,
     pub position: Vec3,
     pub image: usize,
     /// In texels; (0.5, 0.5) is the center of the first.
@@ -79,20 +78,13 @@ pub fn samples<'a>(scene: &'a Scene, bake: &'a Bake, count: u32) -> impl Iterato
             (0..count).map(move |k| {
                 let Vec2 { x, y } = sequence.square(k);
                 let [v, w] = if x + y > 1.0 { [1.0 - x, 1.0 - y] } else { [x, y] };
-                sample(scene, bake, index, triangle, vertices, [1.0 - v - w, v, w])
+                sample(scene, bake, index, vertices, [1.0 - v - w, v, w])
             })
         })
     })
 }
 
-fn sample(
-    scene: &Scene,
-    bake: &Bake,
-    surface: usize,
-    triangle: usize,
-    vertices: &[u32; 3],
-    weights: [f32; 3],
-) -> Sample {
+fn sample(scene: &Scene, bake: &Bake, surface: usize, vertices: &[u32; 3], weights: [f32; 3]) -> Sample {
     let placed = &scene.surfaces[surface];
     let (placement, uv) = (bake.placements[surface].unwrap(), bake.uvs[placed.mesh].as_ref().unwrap());
     let (mut position, mut at) = (Vec3::ZERO, Vec2::ZERO);
@@ -104,5 +96,5 @@ fn sample(
     let image = &bake.images[placement.image];
     let size = Vec2::new(image.width as f32, image.height as f32);
     let at = (placement.min + at * (placement.max - placement.min)) * size;
-    Sample { surface, triangle, position, image: placement.image, at }
+    Sample { surface, position, image: placement.image, at }
 }
