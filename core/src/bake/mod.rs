@@ -32,7 +32,7 @@ use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
 use crate::scene::{Scene, World};
 use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
-use assemble::Assembly;
+use assemble::{Assembly, Repairs};
 use emitters::Lamp;
 use estimate::Estimate;
 use field::Field;
@@ -132,7 +132,7 @@ pub fn bake_logged(
     done.warnings.extend(estimate.warning(settings.target_error, layout.texels_per_meter));
     let transport = match settings.keep {
         Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?),
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, Repairs { fills, seams }, scene)?),
     };
     let report = Report {
         images: images.len(),
