@@ -313,6 +313,8 @@ def compare(asked, bake):
     state = json.loads(path.read_text()) if path.exists() else {}
     if asked.fresh or state.get("finished") or state.get("fingerprint") != mark:
         state = {"fingerprint": mark, "machine": machine(asked.threads), "scenes": {}, "finished": False}
+        if state["machine"]["load_before"] > 0.5:
+            print(f"== the machine is busy, load {state['machine']['load_before']:.1f}: times will mean little")
     else:
         print("== going on with the run that was stopped")
 
