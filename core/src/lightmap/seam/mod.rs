@@ -19,7 +19,7 @@ use crate::progress::{Cancelled, Progress};
 use crate::transport::{Sample, SeamPoint, SeamSolver, Tracer};
 use matching::{Matching, Meeting};
 
-pub use crate::transport::Seams;
+pub use crate::transport::{SeamTexel, Seams};
 
 /// How firmly a texel holds light of its own, against half a texel of a seam.
 const OWN: f32 = 0.02;
@@ -100,6 +100,12 @@ impl Seams {
             largest_after: after.largest,
         })
     }
+}
+
+/// The texels at which seams are seen, with the steps that are left there.
+pub fn seam_texels(seams: &Seams, images: &[LightmapImage]) -> Vec<SeamTexel> {
+    let light = seams.gather(images.iter().map(|image| &image.texels[..]));
+    seams.texel_steps(&light, mean_light(images))
 }
 
 /// The mean of all valid texels and channels.
