@@ -92,7 +92,7 @@ pub fn incoherent(low: Vec3, high: Vec3, count: u32) -> Vec<Ray> {
     let ray = |k: u32| {
         let sequence = Sobol::new(hash(11, k));
         let numbers: [f32; 3] = core::array::from_fn(|dimension| sequence.dimension(0, dimension));
-        let direction = cosine_direction(sequence.square(1), if k % 2 == 0 { Vec3::Y } else { Vec3::NEG_Y });
+        let direction = cosine_direction(sequence.square(1), if k.is_multiple_of(2) { Vec3::Y } else { Vec3::NEG_Y });
         Ray { origin: low + (high - low) * Vec3::from_array(numbers), direction, end: f32::INFINITY }
     };
     (0..count).map(ray).collect()
