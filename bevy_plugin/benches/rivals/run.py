@@ -122,7 +122,7 @@ def build(bake):
         print("== building bake")
         lines = call(["cargo", "build", *BAKE, "--bin", "bake", "--message-format", "json"], cwd=ROOT, stderr=None).splitlines()
         artifacts = [json.loads(line) for line in lines if line.startswith("{")]
-        bake = next(Path(artifact["executable"]) for artifact in artifacts if artifact.get("executable"))
+        bake = next(found["executable"] for found in artifacts if found.get("target", {}).get("name") == "bake")
     CACHE.mkdir(parents=True, exist_ok=True)
     return Path(shutil.copy2(bake, CACHE / "bake"))
 
