@@ -122,7 +122,7 @@ def build(bake):
         print("== building bake")
         lines = call(["cargo", "build", *BAKE, "--bin", "bake", "--message-format", "json"], cwd=ROOT, stderr=None).splitlines()
         artifacts = [json.loads(line) for line in lines if line.startswith("{")]
-        bake = next(Path(artifact["executable"]) for artifact in artifacts if artifact.get("executable"))
+        bake = next(found["executable"] for found in artifacts if found.get("target", {}).get("name") == "bake")
     CACHE.mkdir(parents=True, exist_ok=True)
     return Path(shutil.copy2(bake, CACHE / "bake"))
 
@@ -313,6 +313,8 @@ def compare(asked, bake):
     state = json.loads(path.read_text()) if path.exists() else {}
     if asked.fresh or state.get("finished") or state.get("fingerprint") != mark:
         state = {"fingerprint": mark, "machine": machine(asked.threads), "scenes": {}, "finished": False}
+        if state["machine"]["load_before"] > 0.5:
+            print(f"== the machine is busy, load {state['machine']['load_before']:.1f}: times will mean little")
     else:
         print("== going on with the run that was stopped")
 

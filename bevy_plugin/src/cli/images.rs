@@ -1,5 +1,6 @@
 //! Finished lightmaps on their way into files, and what is kept of them for pictures.
 
+use radiosity::bake::Bake;
 use radiosity::lightmap::LightmapImage;
 
 use super::error::CliError;
@@ -40,9 +41,15 @@ impl Images {
         Ok(())
     }
 
-    /// What was kept, and the sizes of the lightmaps as they are in the files.
-    pub fn into_kept(self) -> (Vec<LightmapImage>, Vec<[u32; 2]>) {
-        (self.kept, self.sizes)
+    /// Puts what was kept into a bake; returns the sizes of the lightmaps as they are in the files.
+    pub fn put_into(self, bake: &mut Bake) -> Vec<[u32; 2]> {
+        for seam in &mut bake.seams {
+            let (kept, [width, _]) = (&self.kept[seam.image as usize], self.sizes[seam.image as usize]);
+            let [x, y] = [seam.texel % width, seam.texel / width].map(|position| position >> self.halvings);
+            seam.texel = y.min(kept.height - 1) * kept.width + x.min(kept.width - 1);
+        }
+        bake.images = self.kept;
+        self.sizes
     }
 }
 

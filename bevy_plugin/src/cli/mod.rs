@@ -203,9 +203,9 @@ fn bake_watched(
     }
     match result {
         Ok(result) => {
-            let bake = result.map_err(|error| memory.add(error))?;
-            let (images, sizes) = images.into_kept();
-            Ok((Bake { images, ..bake }, sizes))
+            let mut bake = result.map_err(|error| memory.add(error))?;
+            let sizes = images.put_into(&mut bake);
+            Ok((bake, sizes))
         }
         Err(_) => Err(CliError::new("the bake ended in an error of its own, which is told above; please report it")),
     }

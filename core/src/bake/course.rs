@@ -6,7 +6,7 @@ use core::mem;
 
 use glam::Vec3A;
 
-use super::assemble::Assembly;
+use super::assemble::{Assembly, Repairs};
 use super::emitters::Lamp;
 use super::estimate::Estimate;
 use super::parts::Parts;
@@ -15,7 +15,7 @@ use super::rays::RayBudget;
 use super::summary::{Done, Tally};
 use super::{BakeSettings, Baker, DirectLights, Keep, Log, Seeds};
 use crate::geometry::Occluders;
-use crate::lightmap::{DirectError, LightmapImage, Seams, filter};
+use crate::lightmap::{DirectError, LightmapImage, Seams, filter, seam_texels};
 use crate::math;
 use crate::progress::{Cancelled, Stage};
 use crate::transport::{Codes, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
@@ -38,8 +38,8 @@ pub(super) enum Lit {
     OneOf {
         /// Irradiance / pi.
         light: Codes,
-        /// The root of [`DirectError::noise`].
-        noise: Codes,
+        /// For each texel the roots of [`DirectError::noise`] and [`DirectError::spread`], and [`DirectError::darkest`].
+        errors: Codes,
     },
 }
 
@@ -116,13 +116,14 @@ impl Course<'_> {
             let seam_report = seams.solve(&mut images, workers, progress)?;
             let done = Done { world: tracer.world, texels, is_valid, surfaces: &surfaces, solution };
             let done = done.tally(self.lighting, &estimate, &nodes, &indirect);
-            tally.add(&Tally { seams: seam_report, ..done });
+            let seam_texels = seam_texels(&seams, &images, texels.here.start);
+            tally.add(&Tally { seams: seam_report, seam_texels, ..done });
             for (index, image) in texels.here.clone().zip(images) {
                 take(index, image)?;
             }
             if self.settings.keep == Keep::Transport {
                 let (rows, scene) = (mem::take(&mut rows), tracer.world.scene);
-                transport = Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?);
+                transport = Some(assembly.transport(surfaces, kept, rows, nodes, Repairs { fills, seams }, scene)?);
             }
         }
         Ok((tally, transport))
@@ -132,11 +133,14 @@ impl Course<'_> {
     fn recalled<O: Occluders>(&self, lit: Lit, pieces: &Pieces<'_, O>) -> Result<(Surfaces, DirectLights), Cancelled> {
         match lit {
             Lit::Only(both) => Ok(*both),
-            Lit::OneOf { light, noise } => {
-                let noise = (0..noise.len()).map(|texel| noise.get(texel));
+            Lit::OneOf { light, errors } => {
+                let error = |texel| {
+                    let [noise, spread, darkest] = errors.rgb(texel).to_array();
+                    DirectError { noise: noise * noise, spread: spread * spread, darkest }
+                };
                 let direct = DirectLights {
                     sums: (0..light.len() / 3).map(|texel| light.rgb(texel)).collect(),
-                    errors: noise.map(|noise| DirectError { noise: noise * noise, ..Default::default() }).collect(),
+                    errors: (0..errors.len() / 3).map(error).collect(),
                     kept: Vec::new(),
                 };
                 Ok((pieces.surfaces(self.is_light)?, direct))
@@ -162,7 +166,8 @@ impl Lit {
     fn shortened(direct: &DirectLights) -> Self {
         let texels = direct.errors.len();
         let light: Vec<f32> = direct.sums[..texels].iter().flat_map(Vec3A::to_array).collect();
-        let noise: Vec<f32> = direct.errors.iter().map(|error| math::sqrt(error.noise)).collect();
-        Self::OneOf { light: Codes::new(&light), noise: Codes::new(&noise) }
+        let numbers = |error: &DirectError| [math::sqrt(error.noise), math::sqrt(error.spread), error.darkest];
+        let errors: Vec<f32> = direct.errors.iter().flat_map(numbers).collect();
+        Self::OneOf { light: Codes::new(&light), errors: Codes::new(&errors) }
     }
 }

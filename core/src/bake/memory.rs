@@ -18,14 +18,14 @@ const TEXEL: u64 = 259;
 const FINISHED: u64 = 29;
 /// For each texel while others are worked on: its patch, whether it is valid and which walls part it from others, its
 /// direct light and how far that may be off.
-const ELSEWHERE: u64 = 13;
+const ELSEWHERE: u64 = 16;
 /// For each patch: itself, its materials, and lists.
 const PATCH: u64 = 190;
 /// For each ray of a row of form factors, if all end on patches of their own.
 const ENTRY: u64 = 4;
 /// For each covered texel of a transport: how it is mixed, its places, and what lamps give it.
 const KEPT: u64 = 200;
-/// For each of twice the rays of a texel, as refined ones have, while rows of transport are made one after the other.
+/// For each ray of a texel, while rows of transport are made one after the other.
 const KEPT_ENTRY: u64 = 6;
 /// Whatever the scene.
 const ALWAYS: u64 = 16 << 20;
@@ -100,7 +100,7 @@ impl Needs {
         let patches = (texels / 64).max(budget.patches as u64).min(texels) * 2 + without.map(count).sum::<u64>();
         let kept = match settings.keep {
             Keep::Lightmaps => 0,
-            Keep::Transport => KEPT + u64::from(budget.gather.rays) * 2 * KEPT_ENTRY,
+            Keep::Transport => KEPT + u64::from(budget.kept) * KEPT_ENTRY,
         };
         Self {
             images,

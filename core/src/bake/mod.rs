@@ -21,13 +21,14 @@ pub use settings::*;
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::mem;
 
 use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
 use crate::light::Lamps;
 use crate::lightmap::{
-    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, layout,
+    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, SeamTexel, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -50,6 +51,8 @@ pub struct Bake {
     pub uvs: Vec<Option<LightmapUv>>,
     /// For each surface of the scene where its lightmap lies, if it has one.
     pub placements: Vec<Option<Placement>>,
+    /// The texels at which seams are seen.
+    pub seams: Vec<SeamTexel>,
     /// How light travels, if [`BakeSettings::keep`] asks for it.
     pub transport: Option<Transport>,
     /// What was done and how good it is.
@@ -136,7 +139,7 @@ fn run(
     let solution = Solution::of_patches(light, &rows, Vec::new(), workers, progress)?;
 
     log.enter_after(Stage::Gather, tracer);
-    let (tally, transport) = course.gather(&mut parts, lit, rows, &solution, &mut log, take)?;
+    let (mut tally, transport) = course.gather(&mut parts, lit, rows, &solution, &mut log, take)?;
     let report = Report {
         triangles: world.blockers,
         surfaces: layout.placements.iter().flatten().count(),
@@ -149,13 +152,13 @@ fn run(
         seed: settings.seed,
         estimated_memory_bytes: plan.needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
-        warnings: [layout.warnings.clone(), summary::warnings(&world, &tally, parts.patches.list.len(), parts.len())]
-            .concat(),
+        warnings: summary::warnings(&world, &layout, &tally, [parts.patches.list.len(), parts.len()], settings),
         seams: tally.seams,
         stages: log.finish(tracer),
         ..tally.report()
     };
-    Ok(Bake { images: Vec::new(), uvs: layout.uvs, placements: layout.placements, transport, report })
+    let seams = mem::take(&mut tally.seam_texels);
+    Ok(Bake { images: Vec::new(), uvs: layout.uvs, placements: layout.placements, seams, transport, report })
 }
 
 fn laid_out(
@@ -228,12 +231,8 @@ impl<O: Occluders> Baker<'_, O> {
             settings: self.budget.gather,
             seed: self.seeds.of(4),
         };
-        let mut nodes = gather.run(workers, progress)?;
-        let total = |(direct, node): (&Vec3A, &crate::lightmap::Gathered)| Vec3::from(*direct) + node.irradiance;
-        let lights: Vec<f32> = direct.iter().zip(&nodes.gathered).map(|pair| total(pair).element_sum() / 3.0).collect();
-        let mean = lights.iter().sum::<f32>() / lights.len().max(1) as f32;
-        gather.refine(&mut nodes, |texel| lights[texel] + 0.1 * mean, workers, progress)?;
-        Ok(nodes)
+        let direct: Vec<f32> = direct.iter().map(|direct| direct.element_sum() / 3.0).collect();
+        gather.run(&direct, workers, progress)
     }
 }
 

@@ -7,9 +7,9 @@ use alloc::vec::Vec;
 
 use glam::Vec3A;
 
-use super::estimate::Estimate;
-use super::{EstimatedError, Report};
-use crate::lightmap::{Nodes, SeamReport, Smooth, Texels};
+use super::estimate::{Estimate, warning};
+use super::{BakeSettings, EstimatedError, Report};
+use crate::lightmap::{Layout, Nodes, SeamReport, SeamTexel, Smooth, Texels};
 use crate::math;
 use crate::scene::World;
 use crate::transport::{LARGEST_REFLECTANCE, Lighting, Rows, Solution, Surfaces};
@@ -40,6 +40,7 @@ pub(super) struct Tally {
     pub light: f64,
     pub error: EstimatedError,
     pub seams: SeamReport,
+    pub seam_texels: Vec<SeamTexel>,
     pub closure_error: f32,
     pub energy_balance: f32,
 }
@@ -56,6 +57,7 @@ impl Tally {
         let by_texels = share(self.valid_texels as f64, part.valid_texels as f64);
         self.error = EstimatedError {
             rms: mean_root([self.error.rms, part.error.rms], by_texels),
+            noise: mean_root([self.error.noise, part.error.noise], by_texels),
             bias: mix([self.error.bias, part.error.bias], share(self.light, part.light)),
         };
         let by_pairs = share(self.seams.pairs as f64, part.seams.pairs as f64);
@@ -71,6 +73,7 @@ impl Tally {
         self.nodes += part.nodes;
         self.lowered += part.lowered;
         self.hidden.extend(&part.hidden);
+        self.seam_texels.extend(&part.seam_texels);
         self.light += part.light;
     }
 
@@ -109,7 +112,11 @@ impl Done<'_> {
             lowered: self.surfaces.count_lowered(lighting),
             hidden: self.hidden(),
             light: valid_texels as f64 * f64::from(estimate.mean),
-            error: EstimatedError { rms: estimate.rms, bias: self.bias(estimate.mean, indirect) },
+            error: EstimatedError {
+                rms: estimate.rms,
+                noise: estimate.noise,
+                bias: self.bias(estimate.mean, indirect),
+            },
             ..Tally::default()
         }
     }
@@ -150,8 +157,14 @@ impl Done<'_> {
 }
 
 /// What the user should know about the scene and how it was baked.
-pub(super) fn warnings(world: &World, tally: &Tally, patches: usize, parts: usize) -> Vec<String> {
-    let mut warnings = Vec::new();
+pub(super) fn warnings(
+    world: &World,
+    layout: &Layout,
+    tally: &Tally,
+    [patches, parts]: [usize; 2],
+    settings: &BakeSettings,
+) -> Vec<String> {
+    let mut warnings = layout.warnings.clone();
     for broken in world.not_finite.chunk_by(|a, b| a.surface == b.surface) {
         warnings.push(format!(
             "{} triangles of \"{}\" have a corner that is not finite (NaN or infinite) and were left out; mend its mesh",
@@ -169,6 +182,7 @@ pub(super) fn warnings(world: &World, tally: &Tally, patches: usize, parts: usiz
             "{lowered} of {patches} patches reflect more than {LARGEST_REFLECTANCE} and were taken to reflect that; lower the base color of their materials",
         ));
     }
+    warnings.extend(warning(&tally.error, settings.target_error, layout.texels_per_meter));
     if parts > 1 {
         warnings.push(format!(
             "the images did not fit into the memory together and were baked in {parts} parts: where surfaces in different parts lie close together, their light on each other is as coarse as patches of 8 x 8 texels, and seams between them remain; allow more memory to bake them at once"

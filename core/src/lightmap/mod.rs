@@ -2,6 +2,7 @@
 
 mod atlas;
 mod blend;
+mod cells;
 mod blocks;
 mod chart;
 mod clip;
@@ -17,6 +18,7 @@ mod overlap;
 mod patch_map;
 mod patches;
 mod plan;
+mod refine;
 mod samples;
 mod seam;
 mod texel;
