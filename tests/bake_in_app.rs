@@ -119,6 +119,7 @@ fn bake_by_hand(collected: &Collected, radiance: f32) -> Bake {
         states: vec![TexelState::Valid; 32],
         charts: vec![0; 32],
         patches: vec![0; 32],
+        errors: vec![0.0; 32],
     };
     Bake {
         images: vec![image],

@@ -261,8 +261,8 @@ fn broken_bytes_are_errors() {
         assert!(Transport::read(&bytes[..length]).is_err());
     }
     let mut newer = bytes.clone();
-    newer[8] = 2;
-    assert_eq!(Transport::read(&newer), Err(TransportError::Version { found: 2 }));
+    newer[8] = 3;
+    assert_eq!(Transport::read(&newer), Err(TransportError::Version { found: 3 }));
     let mut longer = bytes;
     longer.push(0);
     assert!(matches!(Transport::read(&longer), Err(TransportError::Length { .. })));

@@ -66,6 +66,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME=R,G,B", value_parser = named_color, requires = "relight")]
     pub material: Vec<NamedColor>,
 
+    /// Write the rays of every 64th tile of work to FILE, to trace them by other means; needs --threads 1
+    #[arg(long, value_name = "FILE", conflicts_with = "relight")]
+    pub dump_rays: Option<PathBuf>,
+
     /// Exposure of preview.png; by default it is chosen by the lightmaps
     #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = finite)]
     pub ev100: Option<f32>,

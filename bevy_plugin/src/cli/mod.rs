@@ -2,9 +2,9 @@
 
 mod accessor;
 mod args;
-mod builtin;
 mod document;
 mod error;
+mod export;
 mod exr;
 mod load;
 mod loadable;
@@ -15,6 +15,7 @@ mod output;
 mod preview;
 mod progress;
 mod prune;
+mod ray_dump;
 mod relight;
 mod report_file;
 mod scene_file;
@@ -30,17 +31,20 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use clap::Parser;
-use radiosity::bake::{Bake, BakeSettings, bake};
+use radiosity::bake::{Bake, BakeSettings, bake_logged};
+use radiosity::geometry::{NoLog, RayLog};
 use radiosity::progress::Progress;
 use radiosity::scene::Scene;
 
 pub use self::error::CliError;
+pub use self::export::write_glb;
 
 use self::args::Args;
 use self::document::Document;
 use self::memory::Budget;
 use self::output::Staging;
 use self::progress::Display;
+use self::ray_dump::RayDump;
 
 /// Set by Ctrl-C.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -113,7 +117,7 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     keep_source(args)?;
     let mut document = match &args.scene {
         Some(path) => Document::read(path)?,
-        None => builtin::cornell_document(),
+        None => export::cornell_document()?,
     };
     let settings = args.settings();
     let hash = write::hash(&document, args, &settings);
@@ -128,7 +132,16 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     let staging = Staging::new(&args.out, interrupted)?;
     let memory = Budget::new(settings.memory_bytes)?;
     let settings = BakeSettings { memory_bytes: memory.left(), ..settings };
-    let mut bake = bake_watched(&loaded.collected.scene, &settings, &memory, interrupted)?;
+    let scene = &loaded.collected.scene;
+    let mut bake = match &args.dump_rays {
+        None => bake_watched(scene, &settings, &memory, &NoLog, interrupted)?,
+        Some(file) => {
+            let dump = RayDump::new(settings.threads)?;
+            let bake = bake_watched(scene, &settings, &memory, &dump, interrupted)?;
+            dump.write(file)?;
+            bake
+        }
+    };
     bake.report.estimated_memory_bytes += memory.resident;
     for warning in &bake.report.warnings {
         eprintln!("warning: {warning}");
@@ -154,12 +167,13 @@ fn bake_watched(
     scene: &Scene,
     settings: &BakeSettings,
     memory: &Budget,
+    log: &impl RayLog,
     interrupted: &AtomicBool,
 ) -> Result<Bake, CliError> {
     let progress = Progress::default();
     let mut display = Display::new();
     let result = thread::scope(|scope| {
-        let worker = scope.spawn(|| bake(scene, settings, &progress));
+        let worker = scope.spawn(|| bake_logged(scene, settings, &progress, log));
         while !worker.is_finished() {
             if interrupted.load(Ordering::Relaxed) {
                 progress.cancel();

@@ -33,6 +33,7 @@ pub(super) struct ReportFile<'a> {
     closure_error: f32,
     energy_balance: f32,
     estimated_error: EstimatedError,
+    seams: Seams,
     warnings: &'a [String],
 }
 
@@ -56,6 +57,16 @@ struct Stage {
 struct EstimatedError {
     rms: f32,
     bias: f32,
+}
+
+/// Steps between the two sides of seams.
+#[derive(Serialize)]
+struct Seams {
+    pairs: usize,
+    step_before: f32,
+    step_after: f32,
+    largest_before: f32,
+    largest_after: f32,
 }
 
 impl<'a> ReportFile<'a> {
@@ -100,6 +111,13 @@ impl<'a> ReportFile<'a> {
             closure_error: report.closure_error,
             energy_balance: report.energy_balance,
             estimated_error: EstimatedError { rms: report.estimated_error.rms, bias: report.estimated_error.bias },
+            seams: Seams {
+                pairs: report.seams.pairs,
+                step_before: report.seams.step_before,
+                step_after: report.seams.step_after,
+                largest_before: report.seams.largest_before,
+                largest_after: report.seams.largest_after,
+            },
             warnings,
         }
     }

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::lightmap::{Blend, LightmapImage, NONE, Nodes, Patches, Smooth, TexelState, Texels, dilate};
+use crate::lightmap::{Blend, LightmapImage, NONE, Nodes, Patches, Seams, Smooth, TexelState, Texels, dilate};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
@@ -22,11 +22,16 @@ pub(super) struct Assembly<'a> {
 
 impl Assembly<'_> {
     /// The finished images: direct and indirect light together, what is missing filled in; and how it was filled.
-    pub fn images(&self, direct: &[Vec3A], indirect: &[Smooth]) -> Result<(Vec<LightmapImage>, Vec<Fills>), Cancelled> {
+    pub fn images(
+        &self,
+        direct: &[Vec3A],
+        indirect: &[Smooth],
+        errors: &[f32],
+    ) -> Result<(Vec<LightmapImage>, Vec<Fills>), Cancelled> {
         let finished = self.workers.map(self.texels.sizes.len(), 1, self.progress, |range| {
             range
                 .map(|index| {
-                    let mut image = self.image(index, direct, indirect);
+                    let mut image = self.image(index, direct, indirect, errors);
                     dilate(&mut image, self.progress).map(|fills| (image, fills))
                 })
                 .collect()
@@ -34,11 +39,12 @@ impl Assembly<'_> {
         finished.into_iter().collect()
     }
 
-    fn image(&self, index: usize, direct: &[Vec3A], indirect: &[Smooth]) -> LightmapImage {
+    fn image(&self, index: usize, direct: &[Vec3A], indirect: &[Smooth], errors: &[f32]) -> LightmapImage {
         let mut image = empty(self.texels.sizes[index]);
         for (at, &texel) in self.texels.index[index].iter().enumerate().filter(|(_, texel)| **texel != NONE) {
             let texel = texel as usize;
             image.charts[at] = self.texels.list[texel].chart;
+            image.errors[at] = errors[texel];
             image.patches[at] = self.patches.of_texel[texel];
             image.states[at] = if self.is_valid[texel] { TexelState::Valid } else { TexelState::Invalid };
             if self.is_valid[texel] {
@@ -56,6 +62,7 @@ impl Assembly<'_> {
         patches: Rows,
         nodes: Nodes,
         fills: Vec<Fills>,
+        seams: Seams,
         scene: &Scene,
     ) -> Result<Transport, Cancelled> {
         let blend = Blend::new(nodes, self.texels, self.is_valid, self.workers, self.progress)?;
@@ -67,6 +74,7 @@ impl Assembly<'_> {
             nodes: blend.nodes,
             texels: blend.texels,
             images,
+            seams,
             lighting: Lighting::from(scene),
             lamp_names: scene.lights.iter().map(|light| light.name.clone()).collect(),
             material_names: scene.materials.iter().map(|material| material.name.clone()).collect(),
@@ -94,5 +102,6 @@ fn empty([width, height]: [u32; 2]) -> LightmapImage {
         states: vec![TexelState::Empty; count],
         charts: vec![NONE; count],
         patches: vec![NONE; count],
+        errors: vec![0.0; count],
     }
 }

@@ -1,9 +1,8 @@
 //! Surfaces as rays see them: which piece of them stands for a hit.
 
-use crate::geometry::Hit;
+use crate::geometry::{Hit, Occluders};
 use crate::lightmap::{Patches, Texels};
-use crate::scene::World;
-use crate::transport::{Size, Surfaces};
+use crate::transport::{Size, Surfaces, Tracer};
 
 /// A ray looks at a square of 4 x 4 texels where its cone is wider than so many of their sides.
 const FOUR: f32 = 2.8;
@@ -11,8 +10,8 @@ const FOUR: f32 = 2.8;
 const TWO: f32 = 1.4;
 
 /// All surfaces of a bake.
-pub(super) struct Field<'a> {
-    pub world: &'a World<'a>,
+pub(super) struct Field<'a, O> {
+    pub tracer: &'a Tracer<'a, O>,
     pub texels: &'a Texels,
     pub patches: &'a Patches,
     pub surfaces: &'a Surfaces,
@@ -20,17 +19,17 @@ pub(super) struct Field<'a> {
     pub spread: f32,
 }
 
-impl Field<'_> {
+impl<O: Occluders> Field<'_, O> {
     /// The column that a ray sees: the sky where it hits nothing.
     ///
     /// A ray of many stands for a cone. What is met far away is looked at as coarsely as the cone is wide there. That is
     /// less noise for the same light.
     pub fn column(&self, hit: Option<&Hit>) -> u32 {
         let Some(hit) = hit else { return self.surfaces.sky() };
-        let Some(index) = self.patches.at(self.world, self.texels, hit) else { return self.surfaces.black() };
+        let Some((index, texel)) = self.patches.at(self.tracer, self.texels, hit) else { return self.surfaces.black() };
         let patch = &self.patches.list[index as usize];
         let width = hit.distance * self.spread;
-        match self.texels.at(hit) {
+        match texel {
             Some(texel) if patch.side > 0.0 && width * width <= patch.area => {
                 let texels = width * width / self.texels.list[texel as usize].area;
                 self.surfaces.column(texel, size(texels))

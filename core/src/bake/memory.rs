@@ -8,9 +8,9 @@ use crate::scene::{Receiver, Scene};
 /// For each triangle: corners, normal, source, corners in the image, and its part of the tree.
 const TRIANGLE: u64 = 220;
 /// For each texel of an image: what covers it, its index, and the finished lightmap with its states.
-const TEXEL: u64 = 45;
+const TEXEL: u64 = 49;
 /// For each covered texel: the texel, direct, incident and gathered light, its patch and the lists that make these.
-const COVERED: u64 = 190;
+const COVERED: u64 = 198;
 /// For each patch: itself, its materials, and lists.
 const PATCH: u64 = 150;
 /// For each ray of a row of form factors, if all end on patches of their own.

@@ -4,6 +4,7 @@ mod assemble;
 mod check;
 mod emitters;
 mod error;
+mod estimate;
 mod field;
 mod memory;
 mod pieces;
@@ -21,11 +22,11 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::geometry::{Occluders, hash, tree};
+use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
 use crate::light::Lamps;
 use crate::lightmap::{
-    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Texels,
-    check as check_texels, filter, layout,
+    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, Seams,
+    Texels, check as check_texels, filter, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -33,6 +34,7 @@ use crate::scene::{Scene, World};
 use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
 use assemble::Assembly;
 use emitters::Lamp;
+use estimate::Estimate;
 use field::Field;
 use pieces::Pieces;
 use rays::RayBudget;
@@ -63,6 +65,20 @@ pub struct Bake {
 ///
 /// See [`BakeError`]; the text of each says what to do.
 pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
+    bake_logged(scene, settings, progress, &NoLog)
+}
+
+/// Bakes as [`bake`] does and hands every ray to `ray_log`: to trace the same rays elsewhere.
+///
+/// # Errors
+///
+/// Those of [`bake`].
+pub fn bake_logged(
+    scene: &Scene,
+    settings: &BakeSettings,
+    progress: &Progress,
+    ray_log: &impl RayLog,
+) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
     let budget = RayBudget::new(settings);
     let mut log = Log::new(progress);
@@ -75,7 +91,8 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     log.enter(Stage::Geometry);
     let world = World::new(scene);
     let blockers = world.corners[..world.blockers].to_vec();
-    let tracer = Tracer::new(&world, workers.run_apart(progress, || tree(blockers))?);
+    let occluders = workers.run_apart(progress, || tree(blockers))?;
+    let tracer = Tracer::new(&world, Logged { occluders, log: ray_log });
     let mut texels = Texels::new(&world, &layout, progress)?;
     let seeds = Seeds(settings.seed);
     let is_valid = check_texels(&mut texels, &tracer, &workers, seeds.of(1), progress)?;
@@ -102,13 +119,16 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
     let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
 
     log.enter_after(Stage::Finish, tracer);
+    let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect);
     let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (images, fills) = assembly.images(&direct, &indirect)?;
-    let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let done = done.report(&layout, &lighting, (&direct, &direct_errors), &nodes, &indirect);
+    let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
+    let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
+    let seam_report = seams.solve(&mut images, workers, progress)?;
+    let done = Done { world: &world, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
+    let done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
     let transport = match settings.keep {
         Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, scene)?),
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?),
     };
     let report = Report {
         images: images.len(),
@@ -117,6 +137,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
         seed: settings.seed,
         estimated_memory_bytes: needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
+        seams: seam_report,
         stages: log.finish(tracer),
         ..done
     };
@@ -182,7 +203,7 @@ impl<O: Occluders> Baker<'_, O> {
     fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A]) -> Result<Nodes, Cancelled> {
         let Pieces { tracer, texels, patches, workers, progress, .. } = *self.pieces;
         let spread = self.budget.spread();
-        let field = Field { world: tracer.world, texels, patches, surfaces: self.surfaces, spread };
+        let field = Field { tracer, texels, patches, surfaces: self.surfaces, spread };
         let gather = Gather {
             texels,
             is_valid: self.is_valid,

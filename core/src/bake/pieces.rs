@@ -52,7 +52,9 @@ impl<O: Occluders> Pieces<'_, O> {
             let ray = self.tracer.leave(triangle, point, normal, direction, f32::INFINITY);
             match self.tracer.nearest(&ray, hash(seed, k)) {
                 None => surfaces.sky(),
-                Some(hit) => self.patches.at(self.world(), self.texels, &hit).unwrap_or(surfaces.black()),
+                Some(hit) => {
+                    self.patches.at(self.tracer, self.texels, &hit).map_or(surfaces.black(), |(patch, _)| patch)
+                }
             }
         };
         let mut ends: Vec<u32> = (0..rays).map(end).collect();
@@ -165,11 +167,12 @@ impl<O: Occluders> Pieces<'_, O> {
         let mut weights = Vec::new();
         for k in 0..4 {
             let (right, lower) = (k & 1, k >> 1);
-            let x = i32::from(texel.pixel[0]) + (2 * right - 1) * half;
-            let y = i32::from(texel.pixel[1]) + (2 * lower - 1) * half;
+            let [dx, dy] = [(2 * right - 1) * half, (2 * lower - 1) * half];
+            let [x, y] = [i32::from(texel.pixel[0]) + dx, i32::from(texel.pixel[1]) + dy];
             let Some(other) = self.texels.at_pixel(u32::from(texel.image), x, y) else { continue };
             let patch = of_texel[other as usize];
-            if patch != NONE && self.texels.list[other as usize].chart == texel.chart {
+            let is_near = self.texels.list[other as usize].chart == texel.chart;
+            if patch != NONE && is_near && self.texels.is_connected(index as u32, dx, dy) {
                 let share = |along: f32, side: i32| if side == 1 { along } else { 1.0 - along };
                 weights.push((patch, share(along[0], right) * share(along[1], lower)));
             }

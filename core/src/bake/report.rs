@@ -3,6 +3,8 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
+pub use crate::lightmap::SeamReport;
+
 /// What a bake did and how good it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
@@ -40,6 +42,8 @@ pub struct Report {
     pub energy_balance: f32,
     /// What remains wrong, as far as the bake itself can tell.
     pub estimated_error: EstimatedError,
+    /// How far the two sides of seams differ, before they were made to agree and after.
+    pub seams: SeamReport,
     /// What the user should know, each with the remedy.
     pub warnings: Vec<String>,
 }

@@ -1,88 +1,80 @@
-//! The bounding volume hierarchy of obvhs: eight children a node, compressed.
+//! The bounding volume hierarchy: obvhs builds it with two children a node.
 
 use alloc::vec::Vec;
-use core::time::Duration;
 
 use glam::Vec3;
+use obvhs::Boundable;
 use obvhs::aabb::Aabb;
-use obvhs::cwbvh::CwBvh;
-use obvhs::cwbvh::builder::build_cwbvh;
-use obvhs::{Boundable, BvhBuildParams};
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
-use super::occluders::is_before;
-use super::triangle::ShearedRay;
+use super::wide::{Binary, Content, PADDING, Tree};
 use super::{Hit, Occluders, Ray};
 
-/// Triangles in a tree. Memory: about 70 bytes a triangle.
-pub struct Bvh {
-    tree: CwBvh,
-    /// In the order of the leaves, each with its index in the caller's list.
-    leaves: Vec<([Vec3; 3], u32)>,
-}
+/// Triangles in a tree. Memory: about 110 bytes a triangle.
+pub struct Bvh(Tree);
 
 /// What a bake asks for hits.
 pub fn tree(triangles: Vec<[Vec3; 3]>) -> Bvh {
     Bvh::new(&triangles)
 }
 
-/// A triangle with a box a little too large, so that rounding inside the tree loses no hit.
+/// A triangle with a box a little too large, so that rounding loses no hit.
 struct Padded<'a>(&'a [Vec3; 3]);
 
 impl Boundable for Padded<'_> {
     fn aabb(&self) -> Aabb {
         let [a, b, c] = *self.0;
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let padding = Vec3::splat(low.abs().max(high.abs()).max_element() * 2e-6);
+        let padding = Vec3::splat(low.abs().max(high.abs()).max_element() * PADDING);
         Aabb::new((low - padding).to_array().into(), (high + padding).to_array().into())
     }
 }
 
+/// Share of the nodes that are tried at better places in each round.
+const REINSERTED: f32 = 0.05;
+
 impl Bvh {
     /// Builds a tree over finite triangles.
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
-        let padded: Vec<_> = triangles.iter().map(Padded).collect();
-        let tree = build_cwbvh(&padded, BvhBuildParams::medium_build(), &mut Duration::default());
-        let leaves = tree.primitive_indices.iter().map(|&index| (triangles[index as usize], index)).collect();
-        Self { tree, leaves }
-    }
-
-    fn traversal(ray: &Ray) -> obvhs::ray::Ray {
-        // The tree takes -0 for a negative direction in one place and for a positive one in another.
-        let direction = ray.direction + Vec3::ZERO;
-        obvhs::ray::Ray::new(ray.origin.to_array().into(), direction.to_array().into(), 0.0, ray.end)
+        Self(Tree::new(&binary(triangles), triangles))
     }
 }
 
+/// A binary tree with one triangle a leaf: locally ordered clustering, Meister and Bittner 2018, then reinsertion, of the
+/// same 2017.
+fn binary(triangles: &[[Vec3; 3]]) -> Vec<Binary> {
+    let padded: Vec<_> = triangles.iter().map(Padded).collect();
+    let indices = (0..triangles.len() as u32).collect();
+    let mut tree = PlocBuilder::with_capacity(padded.len()).build(
+        PlocSearchDistance::Medium,
+        &padded,
+        indices,
+        SortPrecision::U64,
+        3,
+    );
+    ReinsertionOptimizer::default().run(&mut tree, REINSERTED, None);
+    let wrapped = |node: &Bvh2Node| Binary {
+        low: Vec3::new(node.aabb().min.x, node.aabb().min.y, node.aabb().min.z),
+        high: Vec3::new(node.aabb().max.x, node.aabb().max.y, node.aabb().max.z),
+        content: match node.is_leaf() {
+            true => Content::Triangle(tree.primitive_indices[node.first_index as usize]),
+            false => Content::Children(node.first_index),
+        },
+    };
+    tree.nodes.iter().map(wrapped).collect()
+}
+
 impl Occluders for Bvh {
+    #[inline]
     fn first(&self, ray: &Ray, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit> {
-        let sheared = ShearedRay::new(ray);
-        let mut first: Option<(f32, Hit)> = None;
-        let mut end = ray.end;
-        self.tree.ray_traverse(Self::traversal(ray), &mut obvhs::ray::RayHit::none(), |_, leaf| {
-            let (corners, index) = &self.leaves[leaf];
-            let Some(hit) = sheared.hit(corners, *index, end) else { return f32::INFINITY };
-            let Some(placed) = place(&hit).map(|place| (place, hit)) else { return f32::INFINITY };
-            if first.is_some_and(|known| !is_before(&placed, &known)) {
-                return f32::INFINITY;
-            }
-            first = Some(placed);
-            end = placed.0.min(ray.end);
-            // The tree must still visit what lies at the same place.
-            end * (1.0 + 1e-6)
-        });
-        first.map(|(_, hit)| hit)
+        self.0.first(ray, place)
     }
 
-    fn any(&self, ray: &Ray, mut stop: impl FnMut(&Hit) -> bool) -> bool {
-        let sheared = ShearedRay::new(ray);
-        let missed = self.tree.ray_traverse_miss(Self::traversal(ray), |_, leaf| {
-            let (corners, index) = &self.leaves[leaf];
-            match sheared.hit(corners, *index, ray.end) {
-                Some(hit) if stop(&hit) => f32::NEG_INFINITY,
-                _ => f32::INFINITY,
-            }
-        });
-        !missed
+    #[inline]
+    fn any(&self, ray: &Ray, stop: impl FnMut(&Hit) -> bool) -> bool {
+        self.0.any(ray, stop)
     }
 }
 

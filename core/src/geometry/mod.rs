@@ -9,12 +9,15 @@ mod triangle;
 
 mod occluders;
 mod polygon_occluders;
+mod ray_log;
 
 #[cfg(all(feature = "alloc", not(feature = "bvh")))]
 mod no_bvh;
 
 #[cfg(feature = "bvh")]
 mod bvh;
+#[cfg(feature = "bvh")]
+mod wide;
 
 #[cfg(feature = "bvh")]
 pub use bvh::*;
@@ -26,5 +29,6 @@ pub use no_bvh::tree;
 pub use occluders::{BruteForce, Occluders};
 pub use polygon_occluders::PolygonOccluders;
 pub use ray::*;
+pub use ray_log::*;
 pub use sobol::*;
 pub use triangle::*;

@@ -10,9 +10,10 @@ use super::{Hit, Ray};
 /// "Watertight Ray/Triangle Intersection", JCGT 2013.
 #[derive(Clone, Copy, Debug)]
 pub struct ShearedRay {
-    origin: Vec3,
-    axes: [usize; 3],
-    shear: Vec3,
+    pub(super) origin: Vec3,
+    /// Across, across and along.
+    pub(super) axes: [usize; 3],
+    pub(super) shear: Vec3,
 }
 
 impl ShearedRay {

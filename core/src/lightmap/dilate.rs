@@ -2,12 +2,19 @@
 
 use alloc::vec::Vec;
 
+use glam::Vec3;
+
 use super::{LightmapImage, TexelState};
 use crate::progress::{Cancelled, Progress};
 use crate::transport::{Fills, NEIGHBORS};
 
 /// Rounds around the charts: the gutter, and what block compression mixes in.
 const GUTTER: usize = 4;
+
+/// Of [`NEIGHBORS`]: those that share a side.
+const BESIDE: u8 = 0b0101_1010;
+/// Texels inside geometry take from none that is so many times as bright as another they could take from.
+const CONTRAST: f32 = 4.0;
 
 /// Fills invalid texels from the valid ones of their chart, then the gutters from all; returns how, for other light.
 ///
@@ -20,16 +27,18 @@ pub fn dilate(image: &mut LightmapImage, progress: &Progress) -> Result<Fills, C
     };
     let invalid = all_in(image, TexelState::Invalid);
     let known = image.states.iter().map(|state| *state == TexelState::Valid).collect();
-    let mut filling = Filling { image, known, fills: Fills { width: image.width, ..Fills::default() } };
+    let fills = Fills { width: image.width, ..Fills::default() };
+    let mut filling = Filling { image, known, fills };
     // Inside its chart an invalid texel takes from known ones, ring by ring until nothing changes.
     let rest = filling.fill(invalid, true, progress)?;
-    let mut front = all_in(image, TexelState::Valid);
-    front.extend(all_in(image, TexelState::Invalid));
+    let mut front = all_in(filling.image, TexelState::Valid);
+    front.extend(all_in(filling.image, TexelState::Invalid));
     let mut gutter: Vec<usize> = Vec::new();
     for _ in 0..GUTTER {
         progress.check()?;
-        let mut ring: Vec<usize> = front.iter().flat_map(|&at| neighbors(image, at)).map(|(_, at)| at).collect();
-        ring.retain(|&at| image.states[at] == TexelState::Empty && !filling.known[at]);
+        let mut ring: Vec<usize> =
+            front.iter().flat_map(|&at| neighbors(filling.image, at)).map(|(_, at)| at).collect();
+        ring.retain(|&at| filling.image.states[at] == TexelState::Empty && !filling.known[at]);
         ring.sort_unstable();
         ring.dedup();
         front = filling.grow(&ring, false);
@@ -37,15 +46,13 @@ pub fn dilate(image: &mut LightmapImage, progress: &Progress) -> Result<Fills, C
     }
     // What has no valid texel in its chart takes from whatever is near.
     filling.fill(rest, false, progress)?;
-    let fills = filling.fills;
-    gutter.iter().for_each(|&at| image.states[at] = TexelState::Gutter);
-    fills.apply(&mut image.texels);
-    Ok(fills)
+    gutter.iter().for_each(|&at| filling.image.states[at] = TexelState::Gutter);
+    Ok(filling.fills)
 }
 
 /// Finds out which texels take from which.
 struct Filling<'a> {
-    image: &'a LightmapImage,
+    image: &'a mut LightmapImage,
     known: Vec<bool>,
     fills: Fills,
 }
@@ -69,17 +76,43 @@ impl Filling<'_> {
             self.fills.texels.push(at as u32);
             self.fills.from.push(sources);
         }
+        for &(at, sources) in &ring {
+            self.image.texels[at] = self.mean(at, sources);
+        }
         self.fills.rings.push(self.fills.texels.len() as u32);
         ring.into_iter().map(|(at, _)| at).collect()
     }
 
-    /// The known texels around one, a bit each.
+    /// The known texels beside one, a bit each; those at its corners where there are no others. A mean with those at the
+    /// corners would smear what lies along the border of a chart.
     fn sources(&self, at: usize, same_chart: bool) -> u8 {
         let charts = &self.image.charts;
         let is_source =
             |&(_, other): &(usize, usize)| self.known[other] && (!same_chart || charts[other] == charts[at]);
-        neighbors(self.image, at).filter(is_source).map(|(k, _)| 1 << k).sum()
+        let all: u8 = neighbors(self.image, at).filter(is_source).map(|(k, _)| 1 << k).sum();
+        let nearest = if all & BESIDE != 0 { all & BESIDE } else { all };
+        if same_chart { self.without_bright(at, nearest) } else { nearest }
     }
+
+    /// The sources without those that are far brighter than the darkest.
+    ///
+    /// What is hidden in a wall between a bright and a dark room would carry light from one to the other.
+    fn without_bright(&self, at: usize, sources: u8) -> u8 {
+        let light = |source: u8| self.mean(at, source).element_sum();
+        let darkest = bits(sources).map(light).fold(f32::INFINITY, f32::min);
+        bits(sources).filter(|&source| light(source) <= CONTRAST * darkest).sum()
+    }
+
+    /// The mean of the texels around one that are given as bits.
+    fn mean(&self, at: usize, sources: u8) -> Vec3 {
+        let given = neighbors(self.image, at).filter(|(k, _)| sources >> k & 1 == 1);
+        given.map(|(_, other)| self.image.texels[other]).sum::<Vec3>() / sources.count_ones().max(1) as f32
+    }
+}
+
+/// Each bit that is set, alone.
+fn bits(bits: u8) -> impl Iterator<Item = u8> {
+    (0..8).map(|k| 1 << k).filter(move |bit| bits & bit != 0)
 }
 
 /// The up to eight texels around one, each with its place in [`NEIGHBORS`].
@@ -98,7 +131,6 @@ mod tests {
     use super::*;
     use crate::lightmap::NONE;
     use alloc::vec;
-    use glam::Vec3;
 
     /// Two charts of four texels with one invalid texel each, in a row with a gap.
     #[test]
@@ -111,6 +143,7 @@ mod tests {
             states: [v, v, i, v, v, i].into_iter().chain([e; 6]).collect(),
             charts: [0, 0, 0, 1, 1, 1].into_iter().chain([NONE; 6]).collect(),
             patches: vec![NONE; 12],
+            errors: vec![0.0; 12],
         };
         dilate(&mut image, &Progress::with_clock(|| 0.0)).unwrap();
         let values: Vec<f32> = image.texels.iter().map(|texel| texel.x).collect();
@@ -118,5 +151,22 @@ mod tests {
         assert_eq!(image.states[2], TexelState::Invalid);
         assert_eq!(image.states[9], TexelState::Gutter);
         assert_eq!(image.states[10], TexelState::Empty);
+    }
+
+    /// What is hidden between a bright and a dark room is dark; where light merely changes, it is in between.
+    #[test]
+    fn hidden_texels_do_not_carry_light_through_walls() {
+        let (v, i) = (TexelState::Valid, TexelState::Invalid);
+        let mut image = LightmapImage {
+            width: 6,
+            height: 1,
+            texels: [9.0, 7.0, 0.5, 4.0, 7.0, 6.0].map(Vec3::splat).to_vec(),
+            states: vec![v, i, v, v, i, v],
+            charts: vec![0; 6],
+            ..Default::default()
+        };
+        dilate(&mut image, &Progress::with_clock(|| 0.0)).unwrap();
+        let values: Vec<f32> = image.texels.iter().map(|texel| texel.x).collect();
+        assert_eq!(values, [9.0, 0.5, 0.5, 4.0, 5.0, 6.0]);
     }
 }

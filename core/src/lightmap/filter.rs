@@ -28,7 +28,7 @@ pub struct Smooth {
 /// Smooths gathered irradiance by a Gaussian whose width follows the distance of what each texel sees.
 ///
 /// Contact shadows stay as sharp as they are, because contacts see near things. Only texels of the same chart with
-/// similar normals mix.
+/// similar normals and without a wall between them mix.
 pub fn filter(
     gathered: &[Gathered],
     texels: &Texels,
@@ -70,6 +70,9 @@ pub fn stencil(
     for y in -reach..=reach {
         for x in -reach..=reach {
             let Some(other) = neighbor(texel, texels, is_valid, x, y) else { continue };
+            if !texels.is_connected(index as u32, x, y) {
+                continue;
+            }
             // Neither mixes far into what the other sees near.
             let narrow = sigma.min(sigma * gathered[other].distance / own.distance.max(1e-9)).max(0.2);
             visit(other, math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow)));

@@ -283,7 +283,8 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
         let [Some(a), Some(b), Some(c), Some(d)] = self.corners(cell, width) else { return None };
         let corners = [a, b, c, d];
         let first = &self.texels.list[a];
-        let is_flat = corners.iter().all(|&corner| self.belongs(first, corner));
+        let is_clear = |&corner: &usize| self.texels.links.is_clear(corner as u32, u32::from(width / 2));
+        let is_flat = corners.iter().all(|&corner| self.belongs(first, corner)) && corners.iter().all(is_clear);
         let side = self.texels.list[a].position.distance(self.texels.list[d].position) * 0.707;
         let nearest = corners.iter().map(|&corner| gathered[corner].distance).fold(f32::INFINITY, f32::min);
         let values = corners.map(|corner| gathered[corner].irradiance);

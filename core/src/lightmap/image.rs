@@ -19,6 +19,9 @@ pub struct LightmapImage {
     pub charts: Vec<u32>,
     /// The patch that each texel belongs to; [`NONE`] where there is none.
     pub patches: Vec<u32>,
+    /// Estimated standard error of each valid texel, relative to its light plus a tenth of the mean light of the bake;
+    /// zero elsewhere.
+    pub errors: Vec<f32>,
 }
 
 /// In a list of indices: there is none.

@@ -5,10 +5,12 @@ use alloc::vec::Vec;
 
 use glam::{IVec3, Vec3};
 
+use super::chart::groups;
 use super::{BLOCK, NONE, Texels};
-use crate::geometry::{Hit, Sobol, normal_and_area};
+use crate::geometry::{Hit, Occluders, Sobol, normal_and_area};
 use crate::math;
 use crate::scene::World;
+use crate::transport::Tracer;
 
 /// One side of a piece of surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,13 +80,21 @@ impl Patches {
         patches
     }
 
-    /// The patch that a hit falls on: none behind a one-sided surface, nor where the surface has no area.
+    /// The patch that a hit falls on, and its texel: none behind a one-sided surface, nor where the surface has no area.
     #[inline]
-    pub fn at(&self, world: &World, texels: &Texels, hit: &Hit) -> Option<u32> {
-        let front = match texels.at(hit) {
-            Some(texel) => self.of_texel[texel as usize],
-            None => self.of_triangle[hit.triangle as usize],
+    pub fn at<O: Occluders>(&self, tracer: &Tracer<O>, texels: &Texels, hit: &Hit) -> Option<(u32, Option<u32>)> {
+        if texels.images[hit.triangle as usize] == NONE {
+            return self.side(tracer.world, hit, self.of_triangle[hit.triangle as usize]).map(|patch| (patch, None));
+        }
+        let texel = if hit.front {
+            texels.seen(tracer, hit, |texel| self.of_texel[texel as usize] != NONE)?
+        } else {
+            texels.at(hit)?
         };
+        self.side(tracer.world, hit, self.of_texel[texel as usize]).map(|patch| (patch, Some(texel)))
+    }
+
+    fn side(&self, world: &World, hit: &Hit, front: u32) -> Option<u32> {
         if front == NONE || hit.front {
             return (front != NONE).then_some(front);
         }
@@ -192,11 +202,29 @@ fn cells(texels: &Texels, is_valid: &[bool], cell: u32) -> Vec<(u64, u32)> {
         .map(|(index, texel)| {
             let [column, row] = texel.pixel.map(|position| u64::from(position) / u64::from(cell));
             // A chart lies in one image, so that chart, row and column tell the cell.
-            ((u64::from(texel.chart) << 24) | (row << 12) | column, index as u32)
+            ((u64::from(texel.chart) << 30) | (row << 18) | (column << 6), index as u32)
         })
         .collect();
     keys.sort_unstable();
+    keys.chunk_by_mut(|a, b| a.0 == b.0).for_each(|cell| part(texels, cell));
     keys
+}
+
+/// Gives the parts of a cell that walls part keys of their own: the lowest six bits number them.
+fn part(texels: &Texels, cell: &mut [(u64, u32)]) {
+    if cell.iter().all(|&(_, texel)| texels.links.is_clear(texel, 0)) {
+        return;
+    }
+    let member = |texel: u32| cell.binary_search_by_key(&texel, |&(_, texel)| texel).ok();
+    let ahead = |(place, side): (usize, usize)| {
+        let texel = cell[place].1;
+        let next = texels.beside(texel, side).filter(|_| texels.links.is_open(texel, side))?;
+        member(next).map(|other| [place as u32, other as u32])
+    };
+    let pairs: Vec<[u32; 2]> = (0..cell.len()).flat_map(|place| [(place, 0), (place, 1)]).filter_map(ahead).collect();
+    let parts = groups(cell.len(), &pairs);
+    cell.iter_mut().zip(parts).for_each(|((key, _), part)| *key |= u64::from(part));
+    cell.sort_unstable();
 }
 
 fn count_groups(cells: &[(u64, u32)]) -> usize {

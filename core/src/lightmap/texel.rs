@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use glam::{Vec2, Vec3};
 
 use super::clip::clip_to_unit_square;
-use super::{Layout, NONE};
+use super::{Layout, Links, NONE};
 use crate::geometry::Hit;
 use crate::math;
 use crate::progress::{Cancelled, Progress};
@@ -14,6 +14,11 @@ use crate::scene::World;
 
 /// The side of a block of texels that are kept together in lists, for the sake of caches.
 pub const BLOCK: u32 = 8;
+
+/// Of [`Texel::quarters`]: all of the texel is covered, and nothing stands in it.
+pub const ALL_QUARTERS: u8 = 0b1111;
+/// Among [`Texel::quarters`]: something stands in the texel, so that only its quarters are known to be visible or not.
+pub const CROSSED: u8 = 1 << 4;
 
 /// A texel that a surface covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +35,8 @@ pub struct Texel {
     pub pixel: [u16; 2],
     /// Index of its image.
     pub image: u16,
-    /// Which quarters of the texel have a covered center in the plane of the triangle: bit `2 * lower + right`.
+    /// Which quarters of the texel have a covered center in the plane of the triangle that is not hidden from the
+    /// position: bit `2 * lower + right`; and [`CROSSED`].
     pub quarters: u8,
     /// Its chart, counted through the whole bake.
     pub chart: u32,
@@ -49,6 +55,8 @@ pub struct Texels {
     pub images: Vec<u32>,
     /// For each triangle of the world its corners in its image, in texels.
     pub corners: Vec<[Vec2; 3]>,
+    /// Which texels a wall parts; empty until [`super::check`] looks.
+    pub links: Links,
 }
 
 /// What covers less of a texel than this is a rounding of the border of a chart, unless it is all there is of it.
@@ -120,6 +128,15 @@ impl Texels {
         }
         let (pq, pr) = (q - p, r - p);
         [(pq * ac.y - pr * ab.y) / determinant, (pr * ab.x - pq * ac.x) / determinant]
+    }
+
+    /// The point at the middle of a texel's square, as high above its triangle as its position, covered or not.
+    pub fn middle(&self, world: &World, texel: &Texel) -> Vec3 {
+        let [right, down] = self.steps(world, texel.triangle);
+        let (corner, flat) = (world.corners[texel.triangle as usize][0], world.normals[texel.triangle as usize]);
+        let center = Vec2::from(texel.pixel.map(f32::from)) + 0.5 - self.corners[texel.triangle as usize][0];
+        let point = corner + right * center.x + down * center.y;
+        point + flat * (texel.position - point).dot(flat)
     }
 
     fn place_triangles(&mut self, world: &World, layout: &Layout) {

@@ -50,4 +50,16 @@ impl Workers {
         }
         Ok(results)
     }
+
+    /// Changes a list `chunk` entries at a time; `task` gets the index of the first of them. Its results, in order.
+    pub fn update<T: Send, S: Send>(
+        &self,
+        list: &mut [T],
+        chunk: usize,
+        progress: &Progress,
+        task: impl Fn(usize, &mut [T]) -> S + Sync,
+    ) -> Result<Vec<S>, Cancelled> {
+        progress.check()?;
+        Ok(list.chunks_mut(chunk).enumerate().map(|(index, part)| task(index * chunk, part)).collect())
+    }
 }

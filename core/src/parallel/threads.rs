@@ -82,4 +82,17 @@ impl Workers {
         parts?.into_iter().for_each(|part| results.extend(part));
         Ok(results)
     }
+
+    /// Changes a list `chunk` entries at a time; `task` gets the index of the first of them. Its results, in order.
+    pub fn update<T: Send, S: Send>(
+        &self,
+        list: &mut [T],
+        chunk: usize,
+        progress: &Progress,
+        task: impl Fn(usize, &mut [T]) -> S + Sync,
+    ) -> Result<Vec<S>, Cancelled> {
+        progress.check()?;
+        let chunks = |(index, part): (usize, &mut [T])| task(index * chunk, part);
+        Ok(self.0.install(|| list.par_chunks_mut(chunk).enumerate().map(chunks).collect()))
+    }
 }

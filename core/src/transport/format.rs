@@ -7,13 +7,14 @@ use core::fmt;
 use glam::Vec3;
 
 use super::{
-    Cells, Codes, Fills, LampLight, Lighting, MaterialColors, Origin, Rows, Run, StoredImage, Surfaces, Transport,
+    Cells, Codes, Fills, LampLight, Lighting, MaterialColors, Origin, Rows, Run, Sample, SeamPoint, Seams, StoredImage,
+    Surfaces, Transport,
 };
 
 /// The first bytes of a file.
 const MAGIC: [u8; 8] = *b"RADIOSTP";
 /// What this version writes, and the only one that it reads.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Magic, version, a reserved zero, length and checksum of the rest.
 const HEADER: usize = 32;
 /// Images have at most so many texels in a row and so many rows.
@@ -106,7 +107,8 @@ impl Transport {
 
     /// Whether all lists fit together, so that nothing that is named is missing.
     fn is_sound(&self) -> bool {
-        let Self { surfaces, lamps, patches, nodes, texels, images, lighting, lamp_names, material_names } = self;
+        let Self { surfaces, lamps, patches, nodes, texels, images, seams, lighting, lamp_names, material_names } =
+            self;
         let (receivers, all) = (surfaces.receivers(), surfaces.patch_of.len());
         let of_image = |image: &StoredImage| {
             let within = image.width.max(image.height) <= LARGEST_IMAGE;
@@ -122,6 +124,7 @@ impl Transport {
             && (texels.len() == all && texels.is_sound(nodes.len()))
             && images.iter().map(|image| image.places.len()).sum::<usize>() == all
             && images.iter().all(of_image)
+            && seams.is_sound(images.iter().map(|image| image.width as usize * image.height as usize))
     }
 }
 
@@ -204,7 +207,7 @@ macro_rules! fields {
 }
 
 fields! {
-    Transport { surfaces, lamps, patches, nodes, texels, images, lighting, lamp_names, material_names }
+    Transport { surfaces, lamps, patches, nodes, texels, images, seams, lighting, lamp_names, material_names }
     Surfaces { areas, materials, bare, patch_of, texel_areas, reflectance, emission, cells, around }
     Cells { of_texel, count }
     Codes { largest, codes }
@@ -213,6 +216,9 @@ fields! {
     Run { start, first }
     StoredImage { width, height, places, fills }
     Fills { width, rings, texels, from }
+    Seams { texels, holds, points, rows, links }
+    SeamPoint { sides, weight }
+    Sample { upper, lower, right, down }
     Lighting { lamps, materials, sky }
     MaterialColors { base_color, emissive }
     Vec3 { x, y, z }
@@ -229,13 +235,13 @@ impl Stored for String {
     }
 }
 
-impl Stored for [Cells; 2] {
+impl<T: Stored, const N: usize> Stored for [T; N] {
     fn put(&self, bytes: &mut Vec<u8>) {
-        self.iter().for_each(|cells| cells.put(bytes));
+        self.iter().for_each(|each| each.put(bytes));
     }
 
     fn take(bytes: &mut &[u8]) -> Option<Self> {
-        Some([Cells::take(bytes)?, Cells::take(bytes)?])
+        T::take_list(bytes, N)?.try_into().ok()
     }
 }
 

@@ -6,7 +6,7 @@ use core::fmt;
 
 use glam::{Vec3, Vec3A};
 
-use super::{Lighting, LightingError, Solution, StoredImage, Transport};
+use super::{Lighting, LightingError, SeamSolver, Solution, StoredImage, Transport};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 
@@ -15,6 +15,8 @@ pub struct Relighter<'a> {
     transport: &'a Transport,
     workers: Workers,
     solution: Solution,
+    /// Made when it is first needed.
+    solver: Option<SeamSolver<'a>>,
 }
 
 /// Lightmaps for a lighting.
@@ -39,6 +41,8 @@ pub struct RelightReport {
     pub gather: f64,
     /// Seconds for what of this reaches the texels, and for the images.
     pub finish: f64,
+    /// Seconds for making seams agree; the first time, for finding out how.
+    pub seams: f64,
     /// Bounces that were needed from the start.
     pub sweeps: usize,
 }
@@ -46,7 +50,7 @@ pub struct RelightReport {
 impl RelightReport {
     /// All seconds.
     pub fn seconds(&self) -> f64 {
-        self.direct + self.solve + self.radiance + self.gather + self.finish
+        self.direct + self.solve + self.radiance + self.gather + self.finish + self.seams
     }
 }
 
@@ -85,7 +89,7 @@ impl From<Cancelled> for RelightError {
 impl<'a> Relighter<'a> {
     /// `threads` work on it; 0: one for each core. The result does not depend on it.
     pub fn new(transport: &'a Transport, threads: usize) -> Self {
-        Self { transport, workers: Workers::new(threads), solution: Solution::default() }
+        Self { transport, workers: Workers::new(threads), solution: Solution::default(), solver: None }
     }
 
     /// The transport that it works on.
@@ -130,10 +134,26 @@ impl<'a> Relighter<'a> {
         let nodes = transport.gather(&radiance, workers, progress)?;
         report.gather = clock.lap();
 
-        let images = transport.images(&direct, &nodes, workers, progress)?;
+        let mut images = transport.images(&direct, &nodes, workers, progress)?;
         report.finish = clock.lap();
         self.solution = solution;
+        self.mend(&mut images, progress)?;
+        report.seams = clock.lap();
         Ok(Relit { images, report })
+    }
+
+    /// Makes both sides of seams agree.
+    fn mend(&mut self, images: &mut [Vec<Vec3>], progress: &Progress) -> Result<(), Cancelled> {
+        let Self { transport, workers, solver, .. } = self;
+        let seams = &transport.seams;
+        let solver = match solver {
+            Some(solver) => solver,
+            None => solver.insert(SeamSolver::new(seams, workers, progress)?),
+        };
+        let mut light = seams.gather(images.iter().map(|image| &image[..]));
+        solver.solve(&mut light, workers, progress)?;
+        seams.scatter(&light, images.iter_mut().map(|image| &mut image[..]));
+        Ok(())
     }
 }
 

@@ -3,7 +3,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::{Fills, LampLight, Lighting, Rows, Surfaces};
+use super::{Fills, LampLight, Lighting, Rows, Seams, Surfaces};
 
 /// How light travels through a baked scene: with it, lamps, colors and the sky can change without a ray.
 ///
@@ -24,6 +24,8 @@ pub struct Transport {
     pub texels: Rows,
     /// The images, in the order of the bake; the texels of each follow those of the one before.
     pub images: Vec<StoredImage>,
+    /// Where texels of different charts show the same place.
+    pub seams: Seams,
     /// The lamps and colors of the bake.
     pub lighting: Lighting,
     /// Of each lamp.
@@ -63,12 +65,14 @@ pub struct TransportBytes {
     pub lamps: usize,
     /// Materials, areas, places and what fills the rest of the images.
     pub surfaces: usize,
+    /// Seams.
+    pub seams: usize,
 }
 
 impl TransportBytes {
     /// All of it.
     pub fn total(&self) -> usize {
-        self.patches + self.nodes + self.texels + self.lamps + self.surfaces
+        self.patches + self.nodes + self.texels + self.lamps + self.surfaces + self.seams
     }
 }
 
@@ -82,6 +86,7 @@ impl Transport {
             texels: self.texels.bytes(),
             lamps: self.lamps.iter().map(LampLight::bytes).sum(),
             surfaces: self.surfaces.bytes() + images.sum::<usize>(),
+            seams: self.seams.bytes(),
         }
     }
 }

@@ -104,7 +104,8 @@ fn weights([a, b, c]: [Vec3; 3], point: Vec3, normal: Vec3, extent: f32) -> Opti
     (v >= -1e-4 && w >= -1e-4 && v + w <= 1.0 + 1e-4).then_some([v, w])
 }
 
-fn bilinear(bake: &Bake, image: usize, uv: Vec2) -> Vec3 {
+/// The light of an image, as a GPU samples it.
+pub fn bilinear(bake: &Bake, image: usize, uv: Vec2) -> Vec3 {
     let image = &bake.images[image];
     let size = Vec2::new(image.width as f32, image.height as f32);
     let at = (uv * size - 0.5).clamp(Vec2::ZERO, size - 1.0);
