@@ -57,8 +57,8 @@ fn penumbra_of_an_edge() {
     };
     let mut scene = Scene { materials: vec![grey(0.5, 0.0)], ..Default::default() };
     add_quad(&mut scene, "floor", [[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]], 0);
-    // Turned a little, as edges are.
-    let sheet = [[-6.0, 1.0, 6.0], [0.9, 1.0, 6.0], [-0.9, 1.0, -6.0], [-6.0, 1.0, -6.0]];
+    // Turned a little, as edges are; its front looks down.
+    let sheet = [[-6.0, 1.0, -6.0], [-0.9, 1.0, -6.0], [0.9, 1.0, 6.0], [-6.0, 1.0, 6.0]];
     let sheet = add_quad(&mut scene, "sheet", sheet, 0);
     scene.surfaces[sheet].receiver = Receiver::Nothing;
     let exact = |point: Vec3| {
