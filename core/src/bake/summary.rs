@@ -49,7 +49,11 @@ impl Done<'_> {
             texels_per_meter: layout.texels_per_meter,
             closure_error: self.rows.closure_error(),
             energy_balance: self.solution.energy_balance(self.surfaces, self.rows),
-            estimated_error: EstimatedError { rms: estimate.rms, bias: self.bias(estimate.mean, indirect) },
+            estimated_error: EstimatedError {
+                rms: estimate.rms,
+                noise: estimate.noise,
+                bias: self.bias(estimate.mean, indirect),
+            },
             warnings,
             ..Report::default()
         }

@@ -36,9 +36,29 @@ pub fn filter(
     workers: &Workers,
     progress: &Progress,
 ) -> Result<Vec<Smooth>, Cancelled> {
-    workers.map(gathered.len(), 1024, progress, |range| {
+    let smooth: Vec<Smooth> = workers.map(gathered.len(), 1024, progress, |range| {
         range.map(|index| filtered(index, gathered, texels, is_valid)).collect()
+    })?;
+    workers.map(gathered.len(), 1024, progress, |range| {
+        let variance = |index| variance_around(index, &smooth, texels, is_valid);
+        range.map(|index| Smooth { variance: variance(index), ..smooth[index] }).collect()
     })
+}
+
+/// The mean variance of the texels around one: that of one alone, from two halves, is too uncertain.
+fn variance_around(index: usize, smooth: &[Smooth], texels: &Texels, is_valid: &[bool]) -> f32 {
+    let Texel { pixel: [x, y], image, chart, .. } = texels.list[index];
+    let (mut sum, mut count) = (0.0, 0.0_f32);
+    for k in 0..9 {
+        let (x, y) = (i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1);
+        let Some(other) = texels.at_pixel(u32::from(image), x, y) else { continue };
+        let other = other as usize;
+        if is_valid[other] && texels.list[other].chart == chart {
+            sum += smooth[other].variance;
+            count += 1.0;
+        }
+    }
+    sum / count.max(1.0)
 }
 
 fn filtered(index: usize, gathered: &[Gathered], texels: &Texels, is_valid: &[bool]) -> Smooth {
