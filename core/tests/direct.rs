@@ -6,11 +6,13 @@ mod common;
 use std::f32::consts::PI;
 
 use common::*;
-use glam::{Vec2, Vec3};
+use glam::{Affine2, Vec2, Vec3};
+use radiosity::bake::Quality;
 use radiosity::form_factor::point_to_polygon;
 use radiosity::geometry::tree;
 use radiosity::light::{DirectLight, Lamps, LightSource, PointLight, RectLight};
 use radiosity::lightmap::{Direct, DirectTexel, LayoutSettings, Resolution, ShadowRays, Texel, Texels, check, layout};
+use radiosity::material::{Filter, Material, Texels as PictureTexels, Texture, TextureRef, UvSet, Wrap};
 use radiosity::parallel::Workers;
 use radiosity::progress::Progress;
 use radiosity::scene::{Receiver, Scene, World};
@@ -55,8 +57,8 @@ fn penumbra_of_an_edge() {
     };
     let mut scene = Scene { materials: vec![grey(0.5, 0.0)], ..Default::default() };
     add_quad(&mut scene, "floor", [[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]], 0);
-    // Turned a little, as edges are.
-    let sheet = [[-6.0, 1.0, 6.0], [0.9, 1.0, 6.0], [-0.9, 1.0, -6.0], [-6.0, 1.0, -6.0]];
+    // Turned a little, as edges are; its front looks down.
+    let sheet = [[-6.0, 1.0, -6.0], [-0.9, 1.0, -6.0], [0.9, 1.0, 6.0], [-6.0, 1.0, 6.0]];
     let sheet = add_quad(&mut scene, "sheet", sheet, 0);
     scene.surfaces[sheet].receiver = Receiver::Nothing;
     let exact = |point: Vec3| {
@@ -81,6 +83,41 @@ fn penumbra_of_an_edge() {
         assert!(count > 300.0 && made < 0.5 * last, "{made} for {count} texels after {last}");
         assert!((0.5..2.0).contains(&(claimed / made)), "{claimed} is claimed, {made} is true with {most} rays");
         last = made;
+    }
+}
+
+/// A sign with a picture lights what is before it in its colors.
+#[test]
+fn signs_light_in_their_colors() {
+    let mut scene = Scene { materials: vec![grey(0.5, 0.0)], ..Default::default() };
+    add_quad(&mut scene, "floor", [[-2.0, 0.0, 2.0], [2.0, 0.0, 2.0], [2.0, 0.0, -2.0], [-2.0, 0.0, -2.0]], 0);
+    scene.textures.push(Texture {
+        name: String::new(),
+        width: 2,
+        height: 1,
+        texels: PictureTexels::Linear32(vec![[1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]]),
+        wrap_u: Wrap::Clamp,
+        wrap_v: Wrap::Clamp,
+        filter: Filter::Nearest,
+    });
+    let picture = TextureRef { texture: 0, uv_set: UvSet::Uv0, transform: Affine2::IDENTITY };
+    scene.materials.push(Material { emissive_texture: Some(picture), ..grey(0.0, 10.0) });
+    let corners = [[-1.0, 0.3, -0.3], [1.0, 0.3, -0.3], [1.0, 0.3, 0.3], [-1.0, 0.3, 0.3]];
+    let sign = add_quad(&mut scene, "sign", corners, 1);
+    let mesh = scene.surfaces[sign].mesh;
+    scene.meshes[mesh].uv_0 = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+    let bake = baked(&scene, &settings(8.0, Quality::Draft));
+    for x in [0.3, 0.6, 0.9_f32] {
+        let half = |left: f32| [[left, -0.3], [left + 1.0, -0.3], [left + 1.0, 0.3], [left, 0.3]];
+        let from = |left: f32| {
+            let corners = half(left).map(|[x, z]| Vec3::new(x, 0.3, z));
+            10.0 * point_to_polygon(Vec3::new(x, 0.0, 0.0), Vec3::Y, &corners).abs()
+        };
+        let (near, far) = (from(0.0), from(-1.0));
+        let [right, left] = [x, -x].map(|x| lookup(&scene, &bake, Vec3::new(x, 0.0, 0.0), Vec3::Y));
+        for (got, expected) in [(right, Vec3::new(far, 0.0, near)), (left, Vec3::new(near, 0.0, far))] {
+            assert!((got - expected).length() < 0.05 * expected.length(), "{got} instead of {expected} at {x}");
+        }
     }
 }
 

@@ -124,14 +124,14 @@ fn save(
     mut tour: ResMut<Tour>,
     mut exit: MessageWriter<AppExit>,
 ) {
-    let Some(Exhibit { name, .. }) = tour.waiting.pop_front() else { return };
+    let Some(Exhibit { name, ev100, .. }) = tour.waiting.pop_front() else { return };
     let path = tour.folder.join(name).with_extension("png");
     if let Err(error) = write(&captured.image, &path) {
         error!("{} cannot be written: {error}", path.display());
         exit.write(AppExit::error());
         return;
     }
-    println!("{}", path.display());
+    println!("{}: EV100 {ev100}", path.display());
     commands.entity(*show).despawn();
     commands.run_system_cached(go_on);
 }

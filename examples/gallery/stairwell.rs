@@ -151,5 +151,5 @@ fn lamps(model: &mut Model) {
         wall(0.0, 1.95, 4.75, 1.0),
     ];
     model.add_all("lamp plate", brass, plate, &places);
-    model.add_all("lamp globe", globe, Shape::ball([0.0, 0.14, 0.0], 0.07, 2), &places);
+    model.add_all("lamp globe", globe, Shape::ball([0.0, 0.125, 0.0], 0.07, 2), &places);
 }

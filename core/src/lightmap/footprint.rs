@@ -38,11 +38,16 @@ impl Footprint {
         footprint
     }
 
-    /// The middle of a texel alone.
+    /// The position of a texel alone.
     pub fn middle(texel: &Texel) -> Self {
-        let position = texel.position;
-        let (steps, quarters) = ([Vec3::ZERO; 2], [Vec2::ZERO; 4]);
-        Self { position, middle: position, steps, quarters, visible: 0, is_whole: false }
+        Self {
+            position: texel.position,
+            middle: texel.position,
+            steps: [Vec3::ZERO; 2],
+            quarters: [Vec2::ZERO; 4],
+            visible: 0,
+            is_whole: false,
+        }
     }
 
     /// Point `k`: all over a texel that is whole, else one of the middles of its visible quarters, else its own. Two
