@@ -2,7 +2,7 @@
 
 use bevy::math::{Affine3A, Quat, Vec3, vec2, vec3};
 
-use crate::model::{Exhibit, Model};
+use crate::model::{Exhibit, Model, camera};
 use crate::shape::Shape;
 use crate::spline::lathe;
 
@@ -17,7 +17,7 @@ pub fn exhibit() -> Exhibit {
     columns(&mut model);
     wall(&mut model);
     sky(&mut model);
-    model.seen_from("colonnade", vec3(9.2, 1.75, 4.6), vec3(-0.8, 2.25, -1.2), 46.0)
+    model.seen_by("colonnade", camera(vec3(9.2, 1.75, 4.6), vec3(-0.8, 2.25, -1.2), 46.0), 12.2, 12.0)
 }
 
 fn ground(model: &mut Model) {

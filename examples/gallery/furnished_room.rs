@@ -5,7 +5,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 use bevy::math::{Affine3A, Quat, Vec2, Vec3, vec2, vec3};
 use radiosity::geometry::hash;
 
-use crate::model::{Exhibit, Model};
+use crate::model::{Exhibit, Model, camera};
 use crate::shape::Shape;
 use crate::spline::{cushion, lathe, patch, sheet, strip};
 
@@ -26,7 +26,7 @@ pub fn exhibit() -> Exhibit {
     shelf(&mut model);
     lamps(&mut model);
     plant(&mut model);
-    model.seen_from("furnished_room", vec3(5.35, 1.6, 4.2), vec3(1.75, 0.95, 1.0), 50.0)
+    model.seen_by("furnished_room", camera(vec3(5.35, 1.6, 4.2), vec3(1.75, 0.95, 1.0), 50.0), 7.4, 24.0)
 }
 
 fn walls(model: &mut Model) {

@@ -19,6 +19,10 @@ pub struct Exhibit {
     pub camera: Camera,
     /// Width of the picture over its height.
     pub aspect: f32,
+    /// The exposure of the picture.
+    pub ev100: f32,
+    /// Density of the lightmaps, in texels per meter.
+    pub density: f32,
 }
 
 /// A material of a model.
@@ -90,9 +94,13 @@ impl Model {
         self.scene.lights.push(Light { name: "sun".into(), source });
     }
 
-    /// The finished scene, seen from `eye` in a wide picture, `fov_y` degrees from its lower to its upper edge.
-    pub fn seen_from(self, name: &'static str, eye: Vec3, target: Vec3, fov_y: f32) -> Exhibit {
-        let camera = Camera::looking_at(eye, target, fov_y.to_radians());
-        Exhibit { name, scene: self.scene, camera, aspect: 16.0 / 9.0 }
+    /// The finished scene in a wide picture.
+    pub fn seen_by(self, name: &'static str, camera: Camera, ev100: f32, density: f32) -> Exhibit {
+        Exhibit { name, scene: self.scene, camera, aspect: 16.0 / 9.0, ev100, density }
     }
+}
+
+/// Looks from `eye` at `target`; the picture is `fov_y` degrees high.
+pub fn camera(eye: Vec3, target: Vec3, fov_y: f32) -> Camera {
+    Camera::looking_at(eye, target, fov_y.to_radians())
 }

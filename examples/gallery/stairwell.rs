@@ -2,7 +2,7 @@
 
 use bevy::math::{Affine3A, Quat, Vec3, vec2, vec3};
 
-use crate::model::{Exhibit, Model, Paint};
+use crate::model::{Exhibit, Model, Paint, camera};
 use crate::shape::Shape;
 use crate::spline::lathe;
 
@@ -30,7 +30,7 @@ pub fn exhibit() -> Exhibit {
     flights(&mut model);
     railings(&mut model);
     lamps(&mut model);
-    model.seen_from("stairwell", vec3(2.35, 1.6, 5.25), vec3(0.95, 2.1, 1.6), 66.0)
+    model.seen_by("stairwell", camera(vec3(2.35, 1.6, 5.25), vec3(0.95, 2.1, 1.6), 66.0), 6.9, 32.0)
 }
 
 fn walls(model: &mut Model) {
@@ -151,5 +151,5 @@ fn lamps(model: &mut Model) {
         wall(0.0, 1.95, 4.75, 1.0),
     ];
     model.add_all("lamp plate", brass, plate, &places);
-    model.add_all("lamp globe", globe, Shape::ball([0.0, 0.14, 0.0], 0.07, 2), &places);
+    model.add_all("lamp globe", globe, Shape::ball([0.0, 0.125, 0.0], 0.07, 2), &places);
 }

@@ -7,6 +7,7 @@ mod false_color;
 mod scene;
 mod screenshot;
 mod views;
+mod windowless;
 
 use bevy::app::PluginGroupBuilder;
 use bevy::prelude::*;
@@ -25,7 +26,7 @@ fn main() -> AppExit {
     let mut app = App::new();
     let defaults = DefaultPlugins.set(AssetPlugin { file_path: args.folder(), ..default() });
     if args.screenshot.is_some() {
-        app.add_plugins((screenshot::without_window(defaults), screenshot::plugin));
+        app.add_plugins((windowless::without_window(defaults), screenshot::plugin));
     } else {
         app.add_plugins((in_window(defaults), bar::plugin));
     }

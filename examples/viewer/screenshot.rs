@@ -1,35 +1,18 @@
 //! A picture of a view without a window.
 
-use std::error::Error;
-use std::path::Path;
-
-use bevy::app::{PluginGroupBuilder, ScheduleRunnerPlugin};
 use bevy::camera::RenderTarget;
 use bevy::prelude::*;
-use bevy::render::RenderPlugin;
-use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
 use bevy::render::render_resource::TextureFormat;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
-use bevy::window::ExitCondition;
-use bevy::winit::WinitPlugin;
 use bevy_radiosity::bake::AppliedBake;
 
 use crate::args::Args;
 use crate::camera::Orbit;
+use crate::windowless::write;
 
 const SIZE: [u32; 2] = [640, 480];
 /// After which the bake is seen.
 const FRAMES: usize = 8;
-
-/// The default plugins for an app that runs as fast as it can and draws into an image.
-pub fn without_window(defaults: PluginGroupBuilder) -> PluginGroupBuilder {
-    defaults
-        .set(WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() })
-        .set(RenderPlugin { synchronous_pipeline_compilation: true, ..default() })
-        .disable::<PipelinedRenderingPlugin>()
-        .disable::<WinitPlugin>()
-        .add(ScheduleRunnerPlugin::default())
-}
 
 /// Waits for the bake, takes the picture and ends the app.
 pub fn plugin(app: &mut App) {
@@ -76,8 +59,4 @@ fn save(captured: On<ScreenshotCaptured>, args: Res<Args>, mut exit: MessageWrit
             AppExit::error()
         }
     });
-}
-
-fn write(picture: &Image, path: &Path) -> Result<(), Box<dyn Error>> {
-    Ok(picture.clone().try_into_dynamic()?.to_rgb8().save(path)?)
 }

@@ -1,7 +1,8 @@
 """Path-traces a .glb from its camera and writes what a camera of this exposure shows, as a reference beside a bake.
 
     pip install mitsuba pillow
-    python reference_picture.py SCENE.glb PICTURE.png --ev100 EV [--width 640] [--samples 256] [--beside OURS.png OUT.png]
+    python reference_picture.py SCENE.glb PICTURE.png --ev100 EV [--width 640] [--samples 256]
+        [--radiance KEPT.npy] [--beside OURS.png OUT.png]
 
 Surfaces are diffuse with their base color; one-sided ones block light from behind and are not seen from there. Lights
 are those of KHR_lights_punctual, the sun with its disk of 0.53 degrees, and emissive materials. Tone mapping is Khronos
@@ -220,12 +221,15 @@ def main():
     parser.add_argument("--ev100", type=float, required=True)
     parser.add_argument("--width", type=int, default=640)
     parser.add_argument("--samples", type=int, default=256)
-    parser.add_argument("--radiance", help="also writes cd/m2 in RGB as .npy")
+    parser.add_argument("--radiance", help="keeps cd/m2 in RGB as .npy; what is there already is not traced again")
     parser.add_argument("--beside", nargs=2, metavar=("OURS", "OUT"))
     args = parser.parse_args()
-    color = radiance(*load(args.scene), args.width, args.samples)
-    if args.radiance:
-        np.save(args.radiance, color.astype(np.float32))
+    if args.radiance and os.path.exists(args.radiance):
+        color = np.load(args.radiance)
+    else:
+        color = radiance(*load(args.scene), args.width, args.samples)
+        if args.radiance:
+            np.save(args.radiance, color.astype(np.float32))
     picture = Image.fromarray(tone_mapped(color * 2**-args.ev100 / 1.2))
     picture.save(args.picture, optimize=True)
     if args.beside:

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use radiosity::bake::{Bake, BakeSettings};
+use radiosity::render::FalseColor;
 use serde::Serialize;
 
 use super::args::Args;
@@ -13,9 +14,10 @@ use super::document::Document;
 use super::error::CliError;
 use super::load::Loaded;
 use super::output::Staging;
+use super::preview::Pictures;
 use super::prune::prune;
 use super::report_file::ReportFile;
-use super::{exr, preview, scene_file};
+use super::{exr, scene_file};
 use crate::baked::ktx2;
 use crate::baked::manifest::{self, FILE_NAME, LightEntry, Manifest, SurfaceKey};
 
@@ -46,9 +48,12 @@ impl Written<'_> {
         self.add_coordinates()?;
         staging.write("scene.glb", &self.document.to_glb())?;
         let Loaded { collected, camera, .. } = &self.loaded;
-        let (picture, ev100) =
-            preview::encode(&collected.scene, &self.bake, *camera, self.args.ev100, staging.interrupted)?;
+        let pictures = Pictures::new(&collected.scene, &self.bake, *camera, staging.interrupted);
+        let (picture, ev100) = pictures.preview(self.args.ev100)?;
         staging.write("preview.png", &picture)?;
+        for shown in FalseColor::ALL.into_iter().filter(|_| self.args.views) {
+            staging.write(&format!("{}.png", shown.name()), &pictures.false_color(shown)?)?;
+        }
         let warnings = [&collected.warnings[..], &self.bake.report.warnings].concat();
         let scene = self.args.scene.as_deref().and_then(Path::file_name);
         let scene = scene.map_or("Cornell box".into(), |name| name.to_string_lossy());

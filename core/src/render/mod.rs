@@ -4,6 +4,10 @@ mod camera;
 mod tone;
 
 #[cfg(feature = "bvh")]
+mod false_color;
+#[cfg(feature = "bvh")]
+mod legend;
+#[cfg(feature = "bvh")]
 mod overview;
 #[cfg(feature = "bvh")]
 mod preview;
@@ -11,6 +15,8 @@ mod preview;
 mod view;
 
 pub use camera::*;
+#[cfg(feature = "bvh")]
+pub use false_color::*;
 #[cfg(feature = "bvh")]
 pub use overview::*;
 #[cfg(feature = "bvh")]

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::view::View;
+use super::view::{View, lightmap_place};
 use super::{Camera, automatic_ev100, exposure, khronos_pbr_neutral, valid_texels};
 use crate::bake::Bake;
 use crate::geometry::{Hit, Ray};
@@ -106,15 +106,8 @@ impl Picture<'_> {
 
     /// Irradiance / pi from the lightmap of a surface, if it has one.
     fn baked_texel(&self, hit: &Hit) -> Option<Vec3> {
-        let source = self.view.sources[hit.triangle as usize];
-        let placement = (*self.bake.placements.get(source.surface as usize)?)?;
-        let mesh = self.view.scene.surfaces[source.surface as usize].mesh;
-        let lightmap_uv = self.bake.uvs.get(mesh)?.as_ref()?;
-        let corners =
-            lightmap_uv.triangles.get(source.triangle as usize)?.map(|vertex| lightmap_uv.uv_1[vertex as usize]);
-        let uv = hit.interpolate(self.view.in_order(source, corners));
-        let image = self.bake.images.get(placement.image)?;
-        Some(bilinear(image, placement.min + uv * (placement.max - placement.min)))
+        let (image, uv) = lightmap_place(&self.view, self.bake, hit)?;
+        Some(bilinear(self.bake.images.get(image)?, uv))
     }
 }
 

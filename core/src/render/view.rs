@@ -2,7 +2,11 @@
 
 use core::ops::Deref;
 
+use glam::Vec2;
+
+use crate::bake::Bake;
 use crate::geometry::{Bvh, Hit, Occluders, Ray};
+use crate::lightmap::Placement;
 use crate::scene::{Scene, World};
 
 /// All surfaces of a scene, those that block no light too.
@@ -37,6 +41,23 @@ impl<'a> View<'a> {
     pub fn shows_side(&self, hit: &Hit) -> bool {
         hit.front || self.sides[hit.triangle as usize].both
     }
+}
+
+/// Where a hit lies in the lightmaps, if its surface has one: index of the image, and coordinates in `0..1`.
+pub fn lightmap_place(world: &World, bake: &Bake, hit: &Hit) -> Option<(usize, Vec2)> {
+    let (placement, corners) = lightmap_corners(world, bake, hit.triangle)?;
+    Some((placement.image, hit.interpolate(corners)))
+}
+
+/// Where a triangle lies in the lightmaps, if its surface has one; coordinates of its corners in `0..1`.
+pub fn lightmap_corners(world: &World, bake: &Bake, triangle: u32) -> Option<(Placement, [Vec2; 3])> {
+    let source = world.sources[triangle as usize];
+    let placement = (*bake.placements.get(source.surface as usize)?)?;
+    let mesh = world.scene.surfaces[source.surface as usize].mesh;
+    let lightmap_uv = bake.uvs.get(mesh)?.as_ref()?;
+    let corners = lightmap_uv.triangles.get(source.triangle as usize)?.map(|vertex| lightmap_uv.uv_1[vertex as usize]);
+    let in_image = |uv: Vec2| placement.min + uv * (placement.max - placement.min);
+    Some((placement, world.in_order(source, corners).map(in_image)))
 }
 
 /// Later in the order of hits along a ray, where the triangle index decides at the same distance.

@@ -52,6 +52,18 @@ pub struct SeamSteps {
     pub largest: f32,
 }
 
+/// A texel that a seam touches.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SeamTexel {
+    /// Index of its image.
+    pub image: u32,
+    /// Its index in the image.
+    pub texel: u32,
+    /// The largest step of light at the points that it has a tenth of a say in: |left - right| over the mean of both
+    /// and a tenth of the mean light, of the channel where it is largest.
+    pub step: f32,
+}
+
 impl Sample {
     /// The four touched texels and their weights, which sum to 1.
     pub fn weights(&self) -> [(u32, f32); 4] {
@@ -71,6 +83,13 @@ impl SeamPoint {
     pub fn difference(&self) -> [(u32, f32); 8] {
         let [left, right] = self.sides.map(|side| side.weights());
         core::array::from_fn(|k| if k < 4 { left[k] } else { (right[k - 4].0, -right[k - 4].1) })
+    }
+
+    /// How far the sides differ in each channel, as [`SeamSteps`] has it.
+    fn step(&self, touched: &[Vec3A], mean: f32) -> Vec3A {
+        let [left, right] = self.sides.map(|side| side.light(touched));
+        let scale = (0.5 * (left + right) + 0.1 * mean).max(Vec3A::splat(f32::MIN_POSITIVE));
+        (left - right) / scale
     }
 }
 
@@ -101,9 +120,7 @@ impl Seams {
     pub fn steps(&self, touched: &[Vec3A], mean: f32) -> SeamSteps {
         let (mut squares, mut weights, mut largest) = (0.0_f64, 0.0_f64, 0.0_f32);
         for point in &self.points {
-            let [left, right] = point.sides.map(|side| side.light(touched));
-            let scale = (0.5 * (left + right) + 0.1 * mean).max(Vec3A::splat(f32::MIN_POSITIVE));
-            let step = (left - right) / scale;
+            let step = point.step(touched, mean);
             squares += f64::from(point.weight * step.length_squared() / 3.0);
             weights += f64::from(point.weight);
             largest = largest.max(step.abs().max_element());
@@ -112,6 +129,21 @@ impl Seams {
             return SeamSteps::default();
         }
         SeamSteps { rms: crate::math::sqrt((squares / weights) as f32), largest }
+    }
+
+    /// The texels at which seams are seen, with the steps of this light there.
+    pub fn texel_steps(&self, touched: &[Vec3A], mean: f32) -> Vec<SeamTexel> {
+        const SAY: f32 = 0.1;
+        let mut steps = alloc::vec![-1.0_f32; self.touched()];
+        for point in &self.points {
+            let step = point.step(touched, mean).abs().max_element();
+            let seen = point.sides.iter().flat_map(Sample::weights).filter(|(_, weight)| *weight >= SAY);
+            seen.for_each(|(texel, _)| steps[texel as usize] = steps[texel as usize].max(step));
+        }
+        let places =
+            (0..).zip(&self.texels).flat_map(|(image, texels)| texels.iter().map(move |&texel| (image, texel)));
+        let all = places.zip(steps).map(|((image, texel), step)| SeamTexel { image, texel, step });
+        all.filter(|texel| texel.step >= 0.0).collect()
     }
 
     /// What they take, in bytes.
