@@ -117,6 +117,8 @@ fn gallery_makes_scenes_that_can_be_baked() {
         let light =
             |image: &LightmapImage| image.texels.iter().all(|texel| texel.is_finite() && texel.min_element() >= 0.0);
         assert!(bake.images.iter().all(light), "{name}");
-        assert!(bake.report.estimated_error.rms < 1.0 && bake.report.energy_balance.abs() < 0.01, "{name}");
+        let bright = bake.images.iter().flat_map(|image| &image.texels).filter(|texel| texel.max_element() > 1.0);
+        assert!(bright.count() > bake.report.valid_texels / 2, "{name} is dark");
+        assert!(bake.report.valid_texels > 4 * bake.report.invalid_texels, "{name}: {:?}", bake.report);
     }
 }
