@@ -1,14 +1,17 @@
 """Blender's Cycles bakes the texels that `bake` laid out.
 
-usage: blender_cycles.py BAKED_DIR OUT_DIR SAMPLES THREADS
+usage: blender_cycles.py BAKED_DIR OUT_DIR SAMPLES THREADS imported|tuned
 
 BAKED_DIR holds scene.glb and manifest.json. Writes OUT_DIR/lightmap-K.npy, irradiance / pi, and copies of both files; the
 last line printed is JSON: seconds of the bake call alone, and the peak memory of the process.
 
-Nothing slows the rival down or spoils its result: no importer stands between, all surfaces are one object, since every
-object would be prepared anew, materials are a diffuse BSDF alone, emitters are sampled from their front alone, and what
-Blender limits by default (bounces, bright samples) has no limit, for the limits would darken the result. There is no
-denoiser, which would have to guess the light of a lightmap from colors and normals that it does not get.
+imported   What an artist gets from Blender's glTF importer: an object for every node, which Blender prepares and bakes
+           one after the other, of Principled BSDFs.
+tuned      What an expert would make of it: one object, a diffuse BSDF alone, emitters sampled from their front alone.
+
+In both, what Blender limits by default (bounces, bright samples) has no limit, for the limits would darken the result, and
+one-sided surfaces are black from behind. There is no denoiser, which would have to guess the light of a lightmap from
+colors and normals that it does not get.
 """
 
 import json
@@ -40,23 +43,15 @@ def prepare(samples, threads):
     return scene
 
 
-def material(surface, image):
+def material(surface, image, tuned):
     """Reflects and emits on its front; the back of a one-sided surface is black."""
     made = bpy.data.materials.new(surface.name)
     made.use_nodes = True
     tree = made.node_tree
     tree.nodes.clear()
     new, link = tree.nodes.new, tree.links.new
-    matt = new("ShaderNodeBsdfDiffuse")
-    matt.inputs["Color"].default_value = (*surface.reflectance, 1)
-    front = matt.outputs[0]
-    if surface.emission.max() > 0:
-        emission, both = new("ShaderNodeEmission"), new("ShaderNodeAddShader")
-        emission.inputs["Color"].default_value = (*(surface.emission / surface.emission.max()), 1)
-        emission.inputs["Strength"].default_value = surface.emission.max()
-        link(front, both.inputs[0])
-        link(emission.outputs[0], both.inputs[1])
-        front = both.outputs[0]
+    front = diffuse(surface, new, link) if tuned else principled(surface, new)
+    if tuned and surface.emission.max() > 0:
         made.cycles.emission_sampling = "FRONT_BACK" if surface.double_sided else "FRONT"
     if not surface.double_sided:
         geometry, mix = new("ShaderNodeNewGeometry"), new("ShaderNodeMixShader")
@@ -71,7 +66,32 @@ def material(surface, image):
     return made
 
 
-def place_object(name, parts):
+def diffuse(surface, new, link):
+    matt = new("ShaderNodeBsdfDiffuse")
+    matt.inputs["Color"].default_value = (*surface.reflectance, 1)
+    peak = surface.emission.max()
+    if peak == 0:
+        return matt.outputs[0]
+    emission, both = new("ShaderNodeEmission"), new("ShaderNodeAddShader")
+    emission.inputs["Color"].default_value = (*(surface.emission / peak), 1)
+    emission.inputs["Strength"].default_value = peak
+    link(matt.outputs[0], both.inputs[0])
+    link(emission.outputs[0], both.inputs[1])
+    return both.outputs[0]
+
+
+def principled(surface, new):
+    made = new("ShaderNodeBsdfPrincipled")
+    made.inputs["Base Color"].default_value = (*surface.reflectance, 1)
+    made.inputs["Roughness"].default_value = 1
+    peak = surface.emission.max()
+    if peak > 0:
+        made.inputs["Emission Color"].default_value = (*(surface.emission / peak), 1)
+        made.inputs["Emission Strength"].default_value = peak
+    return made.outputs[0]
+
+
+def place_object(name, parts, tuned):
     """One object of surfaces, each with its image and its coordinates there, v down; or without."""
     starts = np.cumsum([0] + [len(surface.positions) for surface, *_ in parts])
     positions = np.concatenate([surface.positions for surface, *_ in parts])
@@ -88,7 +108,7 @@ def place_object(name, parts):
     mesh.polygons.foreach_set("material_index", owners.astype(np.int32))
     smooth = np.repeat([surface.smooth is not None for surface, *_ in parts], [len(s.triangles) for s, *_ in parts])
     for surface, image, _ in parts:
-        mesh.materials.append(material(surface, image))
+        mesh.materials.append(material(surface, image, tuned))
     layer = mesh.uv_layers.new(name="lightmap")
     uv = [np.zeros((len(s.positions), 2)) if uv is None else uv for s, _, uv in parts]
     uv = np.concatenate(uv)[corners]
@@ -170,26 +190,25 @@ def peak_bytes():
 
 def main():
     source, out, samples, threads = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
+    tuned = sys.argv[5] == "tuned"
     os.makedirs(out, exist_ok=True)
     manifest = json.load(open(f"{source}/manifest.json"))
     surfaces, lamps = glb.read(f"{source}/scene.glb")
     prepare(samples, threads)
     images = [new_image(index, entry) for index, entry in enumerate(manifest["images"])]
     places = {(entry["node"], entry["primitive"]): entry for entry in manifest["surfaces"]}
-    lit, bare = [], []
+    objects = {}
     for surface in surfaces:
         place = places.get((surface.node, surface.primitive))
-        if place is None:
-            bare.append((surface, None, None))
-        else:
-            lit.append((surface, images[place["image"]], in_image(surface.uv, place["uv_rect"])))
-    if bare:
-        place_object("bare", bare)
-    baked = place_object("baked", lit)
+        part = (surface, images[place["image"]], in_image(surface.uv, place["uv_rect"])) if place else (surface, None, None)
+        objects.setdefault((place is not None, 0 if tuned else surface.node), []).append(part)
     for index, lamp in enumerate(lamps):
         place_lamp(lamp, index)
-    baked.select_set(True)
-    bpy.context.view_layer.objects.active = baked
+    for (is_lit, node), parts in objects.items():
+        made = place_object(f"{node}", parts, tuned)
+        if is_lit:
+            made.select_set(True)
+            bpy.context.view_layer.objects.active = made
     start = time.perf_counter()
     bpy.ops.object.bake(type="DIFFUSE", pass_filter={"DIRECT", "INDIRECT"}, margin=MARGIN, use_clear=True)
     seconds = time.perf_counter() - start
@@ -201,6 +220,6 @@ def main():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 5:
+    if len(sys.argv) != 6 or sys.argv[5] not in ("imported", "tuned"):
         sys.exit(__doc__)
     main()

@@ -20,15 +20,18 @@ import sys
 import time
 from pathlib import Path
 
+import verdict
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "radiosity" / "rivals"
 PACKAGES = ["bpy==4.5.*", "mitsuba", "embreex", "numpy"]
 SAMPLES = [16, 64, 256]
 FEWER_SAMPLES = [4, 1]
+MODES = ["imported", "tuned"]
 QUALITIES = ["draft", "medium"]
 BAKE = ["--profile", "bake", "-p", "bevy_radiosity", "--no-default-features", "--features", "cli"]
-GALLERY = ["--profile", "bake", "-p", "bevy_radiosity", "--no-default-features", "--features", "cli", "--example", "gallery"]
+GALLERY = ["-p", "bevy_radiosity", "--features", "cli,viewer", "--example", "gallery"]
 
 
 class Failed(Exception):
@@ -43,6 +46,7 @@ def arguments():
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="for both bakers (%(default)s)")
     parser.add_argument("--fresh", action="store_true", help="start anew even if the last run was not finished")
     parser.add_argument("--bake", type=Path, metavar="FILE", help="an existing bake program, instead of building it")
+    parser.add_argument("--gallery", type=Path, metavar="DIR", help="the gallery's scenes, instead of building it")
     parser.add_argument("--table-only", action="store_true", help="write the tables from the last run's figures")
     return parser.parse_args()
 
@@ -118,26 +122,34 @@ def build(bake):
         print("== building bake")
         lines = call(["cargo", "build", *BAKE, "--bin", "bake", "--message-format", "json"], cwd=ROOT, stderr=None).splitlines()
         artifacts = [json.loads(line) for line in lines if line.startswith("{")]
-        bake = next(Path(artifact["executable"]) for artifact in artifacts if artifact.get("executable"))
+        bake = next(found["executable"] for found in artifacts if found.get("target", {}).get("name") == "bake")
     CACHE.mkdir(parents=True, exist_ok=True)
     return Path(shutil.copy2(bake, CACHE / "bake"))
 
 
-def make_scenes(bake):
+def make_scenes(asked, bake):
     """Scenes that the repository makes, and those beside it."""
     import scenes
 
-    made, gallery, beside = CACHE / "scenes", CACHE / "gallery", ROOT.parent / "shared" / "scenes"
+    made, beside = CACHE / "scenes", ROOT.parent / "shared" / "scenes"
     made.mkdir(parents=True, exist_ok=True)
     call([bake, "--quality", "draft", "--out", made / "built_in"])
     shutil.copy(made / "built_in" / "scene.glb", made / "cornell.glb")
-    try:
-        call(["cargo", "run", "--quiet", *GALLERY, "--", "--scenes", gallery], cwd=ROOT)
-    except Failed as error:
-        print(f"== without the gallery's scenes: {error}")
+    gallery = made if asked.quick else asked.gallery or make_gallery()
     if not beside.exists():
         print(f"== {beside} is not there: without its scenes")
     return scenes.usual(made, gallery, beside)
+
+
+def make_gallery():
+    """The folder of the gallery's scenes; they may be missing."""
+    folder = CACHE / "gallery"
+    print("== building the gallery for its scenes")
+    try:
+        call(["cargo", "run", "--quiet", *GALLERY, "--", "--scenes", folder], cwd=ROOT)
+    except Failed as error:
+        print(f"== without the gallery's scenes: {error}")
+    return folder
 
 
 def fingerprint(asked, bake, paths):
@@ -165,7 +177,8 @@ class Comparison:
         self.scene, self.asked, self.bake, self.save = scene, asked, bake, save
         self.folder = CACHE / "work" / scene.name
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.found = state["scenes"].setdefault(scene.name, {"density": scene.density, "ours": {}, "cycles": {}})
+        self.found = state["scenes"].setdefault(scene.name, {"ours": {}, "cycles": {mode: {} for mode in MODES}})
+        self.found["density"] = scene.density
         self.found.pop("failed", None)
         self.source = self.folder / f"{scene.name}.glb"
         glb.write_without_ranges(scene.path, self.source)
@@ -178,30 +191,33 @@ class Comparison:
         settings = self.settings()
         self.ours(settings)
         for samples in SAMPLES[:1] if self.asked.quick else SAMPLES:
-            if self.takes(samples) > end - time.monotonic():
-                print(f"  Cycles, {samples} samples: left out, would take {self.takes(samples):.0f} s")
-                break
-            self.cycles(samples)
-            if self.found["cycles"][str(samples)]["rms"] <= self.goal_error():
-                break
+            for mode in MODES:
+                self.cycles_more(mode, samples, end)
             self.ours(settings)
-        for samples in FEWER_SAMPLES:
-            if min(run["rms"] for run in self.found["cycles"].values()) > self.goal_error() or self.least_is_above():
-                break
-            self.cycles(samples)
+        for mode in MODES:
+            self.cycles_fewer(mode)
         last = self.last_settings()
         for _ in range(1 if self.asked.quick else 3):
             self.ours(last)
         self.embree()
 
-    def goal_error(self):
-        import verdict
+    def cycles_more(self, mode, samples, end):
+        """More samples, unless those before were enough or time is short."""
+        known = list(self.found["cycles"][mode].values())
+        if any(run["rms"] <= verdict.GOAL_ERROR for run in known) or any(run["samples"] < samples / 4 for run in known[-1:]):
+            return
+        takes = max((run["seconds"] * samples / run["samples"] for run in known), default=0)
+        if takes > end - time.monotonic():
+            print(f"  Cycles, {mode}, {samples} samples: left out, would take up to {takes:.0f} s")
+        else:
+            self.cycles(mode, samples)
 
-        return verdict.GOAL_ERROR
-
-    def least_is_above(self):
-        """Whether the time of Cycles at the goal lies between two measured ones."""
-        return max(run["rms"] for run in self.found["cycles"].values()) > self.goal_error()
+    def cycles_fewer(self, mode):
+        """Where the goal's error is reached with the fewest samples, the time for it lies between it and less."""
+        for samples in FEWER_SAMPLES:
+            if max(run["rms"] for run in self.found["cycles"][mode].values()) > verdict.GOAL_ERROR:
+                return
+            self.cycles(mode, samples)
 
     def settings(self):
         settings = {quality: ["--quality", quality] for quality in QUALITIES}
@@ -209,15 +225,12 @@ class Comparison:
 
     def last_settings(self):
         """What comes near to the error at which both are compared, now that it is known."""
-        import verdict
-
-        error = verdict.common_error(list(self.found["cycles"].values()))
+        errors = [verdict.common_error(list(self.found["cycles"][mode].values())) for mode in MODES]
         if self.has_error:
-            aims = [f"{100 * share * error:.2g}" for share in (1, 0.7)]
-            return {f"error {aim} %": ["--error", f"{aim}%"] for aim in aims}
-        if verdict.fastest(list(self.found["ours"].values()), error) is None:
-            return {"high": ["--quality", "high"]}
-        return {}
+            aims = {f"{100 * share * error:.2g}" for error in errors for share in (1, 0.7)}
+            return {f"error {aim} %": ["--error", f"{aim}%"] for aim in sorted(aims)}
+        ours = list(self.found["ours"].values())
+        return {"high": ["--quality", "high"]} if any(verdict.fastest(ours, error) is None for error in errors) else {}
 
     def find_reference(self):
         if self.scene.points is not None:
@@ -251,19 +264,16 @@ class Comparison:
             self.layout = out
             self.tell(f"radiosity, {name}", run)
 
-    def takes(self, samples):
-        """Seconds that Cycles will need."""
-        known = self.found["cycles"].values()
-        return max((run["seconds"] * samples / run["samples"] for run in known), default=0)
-
-    def cycles(self, samples):
-        if str(samples) in self.found["cycles"]:
+    def cycles(self, mode, samples):
+        runs = self.found["cycles"][mode]
+        if str(samples) in runs:
             return
-        out = self.folder / f"cycles{samples}"
-        printed = call([sys.executable, HERE / "blender_cycles.py", self.layout, out, samples, self.asked.threads])
+        out = self.folder / f"cycles_{mode}{samples}"
+        script = HERE / "blender_cycles.py"
+        printed = call([sys.executable, script, self.layout, out, samples, self.asked.threads, mode])
         run = json.loads(next(line for line in reversed(printed.splitlines()) if line.startswith("{")))
-        self.found["cycles"][str(samples)] = run | self.error(out)
-        self.tell(f"Cycles, {samples} samples", self.found["cycles"][str(samples)])
+        runs[str(samples)] = run | self.error(out)
+        self.tell(f"Cycles, {mode}, {samples} samples", runs[str(samples)])
 
     def error(self, folder):
         return json.loads(call([sys.executable, HERE / "error.py", folder, self.reference]).strip().splitlines()[-1])
@@ -296,13 +306,15 @@ def compare(asked, bake):
     """All scenes; what is known is kept after every run."""
     import scenes
 
-    paths = asked.scenes or make_scenes(bake)
+    paths = asked.scenes or make_scenes(asked, bake)
     if asked.quick and not asked.scenes:
         paths = [path for path in paths if path.stem in ("furnace", "cornell")]
     path, mark = CACHE / "run.json", fingerprint(asked, bake, paths)
     state = json.loads(path.read_text()) if path.exists() else {}
     if asked.fresh or state.get("finished") or state.get("fingerprint") != mark:
         state = {"fingerprint": mark, "machine": machine(asked.threads), "scenes": {}, "finished": False}
+        if state["machine"]["load_before"] > 0.5:
+            print(f"== the machine is busy, load {state['machine']['load_before']:.1f}: times will mean little")
     else:
         print("== going on with the run that was stopped")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import glb
 
-TEXELS = 80_000
+TEXELS = 60_000
 # Texels per meter of scenes that come with a reference; finer ones would take Cycles too long.
 DENSITIES = {"cornell": 64, "furnace": 64, "zdm2": 4}
 
@@ -27,7 +27,7 @@ class Scene:
 
 
 def scene(path):
-    """A scene, with a density that gives some 80 000 texels where none is known; `NAME.glb@N` names one."""
+    """A scene, with a density that gives some 60 000 texels where none is known; `NAME.glb@N` names one."""
     text, _, density = str(path).partition("@")
     path = Path(text)
     if not path.exists():

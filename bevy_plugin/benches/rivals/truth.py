@@ -28,7 +28,7 @@ COLUMNS = "x y z nx ny nz mesh triangle b0 b1 b2 r g b se_r se_g se_b back".spli
 SUN_RADIUS = np.radians(0.53 / 2)
 SUN_RAYS = 256
 # Paths of one batch; the standard error is that of the means of batches.
-BATCH = 1 << 18
+BATCH = 1 << 17
 LEAST_BATCHES = 16
 
 
@@ -151,7 +151,7 @@ def estimate(scene, points, seconds, seed, directions, value):
     spread = lambda array: mi.Point3f(*[dr.gather(mi.Float, mi.Float(array[:, k].astype(np.float32)), index) for k in range(3)])
     starts, frames = spread(points.starts), mi.Frame3f(mi.Vector3f(spread(points.normals)))
     flat = mi.Vector3f(spread(points.flat))
-    integrator = mi.load_dict({"type": "path", "max_depth": -1, "rr_depth": 64})
+    integrator = mi.load_dict({"type": "path", "max_depth": -1, "rr_depth": 8})
     means, end = [], time.monotonic() + seconds
     while len(means) < LEAST_BATCHES or time.monotonic() < end:
         sampler = mi.load_dict({"type": "independent"})

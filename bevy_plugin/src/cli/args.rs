@@ -34,6 +34,10 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value_t)]
     pub quality: QualityArg,
 
+    /// Rays are added until the estimated error is no larger: 2% or 0.02; the quality says with how many it begins
+    #[arg(long, value_name = "E", value_parser = share, conflicts_with = "transport")]
+    pub error: Option<f32>,
+
     /// Worker threads, 0 for one on each core; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = threads, default_value_t = 0)]
     pub threads: usize,
@@ -138,6 +142,7 @@ impl Args {
         BakeSettings {
             layout: LayoutSettings { resolution, uv, ..Default::default() },
             quality,
+            target_error: self.error.unwrap_or(0.0),
             threads: self.threads,
             memory_bytes: self.memory.unwrap_or_else(most_of_the_machine),
             seed: self.seed,
@@ -164,6 +169,14 @@ fn not_negative(text: &str) -> Result<f32, String> {
 
 fn finite(text: &str) -> Result<f32, String> {
     text.parse().ok().filter(|number: &f32| number.is_finite()).ok_or_else(|| "it must be a number".into())
+}
+
+fn share(text: &str) -> Result<f32, String> {
+    let share = match text.strip_suffix('%') {
+        Some(percent) => positive(percent.trim_end())? / 100.0,
+        None => positive(text)?,
+    };
+    if share < 1.0 { Ok(share) } else { Err("it must be below 100%".into()) }
 }
 
 fn named_color(text: &str) -> Result<NamedColor, String> {
@@ -220,6 +233,16 @@ mod tests {
         assert_eq!(bytes("4096"), Ok(4096));
         for wrong in ["", "G", "2X", "-1G", "0"] {
             assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn errors_are_shares() {
+        assert_eq!(share("2%"), Ok(0.02));
+        assert_eq!(share("0.5 %"), Ok(0.005));
+        assert_eq!(share("0.02"), Ok(0.02));
+        for wrong in ["", "%", "0%", "-1%", "2", "100%", "NaN", "two"] {
+            assert!(share(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -40,6 +40,7 @@ pub(super) struct ReportFile<'a> {
 #[derive(Serialize)]
 struct Settings {
     quality: String,
+    target_error: f32,
     uv: String,
     resolution: String,
     emissive_scale: f32,
@@ -56,6 +57,7 @@ struct Stage {
 #[derive(Serialize)]
 struct EstimatedError {
     rms: f32,
+    noise: f32,
     bias: f32,
 }
 
@@ -78,6 +80,7 @@ impl<'a> ReportFile<'a> {
             scene,
             settings: Settings {
                 quality: format!("{:?}", settings.quality).to_lowercase(),
+                target_error: settings.target_error,
                 uv: format!("{:?}", settings.layout.uv).to_lowercase(),
                 resolution: match settings.layout.resolution {
                     Resolution::Texels(texels) => format!("{texels} texels"),
@@ -110,7 +113,11 @@ impl<'a> ReportFile<'a> {
                 .collect(),
             closure_error: report.closure_error,
             energy_balance: report.energy_balance,
-            estimated_error: EstimatedError { rms: report.estimated_error.rms, bias: report.estimated_error.bias },
+            estimated_error: EstimatedError {
+                rms: report.estimated_error.rms,
+                noise: report.estimated_error.noise,
+                bias: report.estimated_error.bias,
+            },
             seams: Seams {
                 pairs: report.seams.pairs,
                 step_before: report.seams.step_before,

@@ -20,6 +20,13 @@ pub(super) struct Assembly<'a> {
     pub progress: &'a Progress,
 }
 
+/// What is done to finished images.
+pub(super) struct Repairs {
+    /// For each image how missing texels are filled.
+    pub fills: Vec<Fills>,
+    pub seams: Seams,
+}
+
 impl Assembly<'_> {
     /// The finished images: direct and indirect light together, what is missing filled in; and how it was filled.
     pub fn images(
@@ -61,8 +68,7 @@ impl Assembly<'_> {
         lamps: Vec<LampLight>,
         patches: Rows,
         nodes: Nodes,
-        fills: Vec<Fills>,
-        seams: Seams,
+        Repairs { fills, seams }: Repairs,
         scene: &Scene,
     ) -> Result<Transport, Cancelled> {
         let blend = Blend::new(nodes, self.texels, self.is_valid, self.workers, self.progress)?;

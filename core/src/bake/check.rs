@@ -67,6 +67,10 @@ fn place(source: &LightSource) -> Vec3 {
 }
 
 fn check_settings(settings: &BakeSettings) -> Result<(), BakeError> {
+    let error = settings.target_error;
+    if !(error >= 0.0 && error.is_finite()) {
+        return invalid(format!("an error of {error} cannot be reached; 0.02 is 2 %, 0 asks for none"));
+    }
     match settings.layout.resolution {
         Resolution::TexelsPerMeter(density) if !(density > 0.0 && density.is_finite()) => {
             invalid(format!("{density} texels per meter cannot be; 4 to 64 are usual"))

@@ -1,11 +1,17 @@
 //! How wrong a bake is, as far as it can tell itself.
 
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
 use crate::lightmap::{DirectError, Smooth, Texel, Texels};
 use crate::math;
+
+/// Rounding of a channel to RGB9E5, in which lightmaps are stored: root mean square relative to the value, for mantissas
+/// of 9 bits that are spread evenly in their logarithm, `sqrt(3 / (24 ln 2)) / 512`.
+const ROUNDING: f32 = 8.3e-4;
 
 /// Errors relative to the light at each texel plus a tenth of the mean of all. Lists have one entry for each covered
 /// texel; light is irradiance / pi.
@@ -14,9 +20,11 @@ pub(super) struct Estimate {
     pub light: Vec<f32>,
     /// Mean of `light` over the valid texels.
     pub mean: f32,
-    /// Standard error of each valid texel, zero for others.
+    /// Standard error of each valid texel from its rays, zero for others.
     pub errors: Vec<f32>,
-    /// Root mean square of the errors, with what lies between texels.
+    /// Root mean square of the errors.
+    pub noise: f32,
+    /// The same with what lies between texels and with what the file rounds.
     pub rms: f32,
 }
 
@@ -34,20 +42,58 @@ impl Estimate {
         let count = valid().count().max(1) as f64;
         let mean = (valid().map(|index| f64::from(light[index])).sum::<f64>() / count) as f32;
         if mean <= 0.0 {
-            return Self { errors: light.iter().map(|_| 0.0).collect(), light, mean, rms: 0.0 };
+            return Self { errors: light.iter().map(|_| 0.0).collect(), light, mean, noise: 0.0, rms: 0.0 };
         }
-        let scale = |index: usize| light[index] + 0.1 * mean;
+        let floor = 0.1 * mean;
         let variance = |index: usize| indirect[index].variance + direct_errors[index].noise;
-        let error = |index: usize| if is_valid[index] { math::sqrt(variance(index)) / scale(index) } else { 0.0 };
+        let error =
+            |index: usize| if is_valid[index] { math::sqrt(variance(index)) / (light[index] + floor) } else { 0.0 };
         let errors: Vec<f32> = (0..light.len()).map(error).collect();
         let between = Between { texels, is_valid, light: &light };
-        let squared = |index: usize| {
-            let own = f64::from(errors[index]);
-            own * own + f64::from(between.squared_error(index)) / f64::from(scale(index) * scale(index))
+        let missed = |index: usize| {
+            let scale = light[index] + floor;
+            let lit = f64::from(between.squared_error(index) / (scale * scale));
+            let direct = Vec3::from(direct[index]).element_sum() / 3.0;
+            lit + f64::from(squared_error_at_edges(light[index], direct, &direct_errors[index], floor))
         };
-        let rms = math::sqrt((valid().map(squared).sum::<f64>() / count) as f32);
-        Self { light, mean, errors, rms }
+        let noise = valid().map(|index| f64::from(errors[index] * errors[index])).sum::<f64>() / count;
+        let missed = valid().map(missed).sum::<f64>() / count;
+        let rms = math::sqrt((noise + missed) as f32 + ROUNDING * ROUNDING);
+        Self { light, mean, errors, noise: math::sqrt(noise as f32), rms }
     }
+
+    /// What the user should know where the error is larger than wanted.
+    pub fn warning(&self, wanted: f32, texels_per_meter: f32) -> Option<String> {
+        if wanted <= 0.0 || self.rms <= wanted {
+            return None;
+        }
+        let percent = |error: f32| format!("{:.1} %", 100.0 * error);
+        let (rms, wanted_text, noise) = (percent(self.rms), percent(wanted), percent(self.noise));
+        let remedy = if self.noise > wanted {
+            String::from("no texel gets more rays than that; choose a higher quality")
+        } else {
+            format!(
+                "the rest lies between texels, mostly at edges of shadows, where no rays help: bake more than \
+                 {texels_per_meter:.1} texels per meter"
+            )
+        };
+        Some(format!("the estimated error is {rms} instead of {wanted_text}; noise is {noise}: {remedy}"))
+    }
+}
+
+/// Mean square error, relative to what is there, of a texel that an edge of a shadow crosses: it holds a mean of a dark
+/// and a bright part, and is read on both.
+///
+/// `light` is all light of the texel, `direct` its direct part, `floor` what is added to the light of each part.
+fn squared_error_at_edges(light: f32, direct: f32, error: &DirectError, floor: f32) -> f32 {
+    let below = direct - error.darkest;
+    if error.spread <= 0.0 || below <= 0.0 {
+        return 0.0;
+    }
+    let above = error.spread / below;
+    let [dark, bright] = [(light - below).max(0.0), light + above].map(|part| part + floor);
+    let share = error.spread / (error.spread + below * below);
+    share * (below / dark) * (below / dark) + (1.0 - share) * (above / bright) * (above / bright)
 }
 
 /// What a lightmap misses between its texels.
@@ -76,5 +122,32 @@ impl Between<'_> {
             _ => 0.0,
         };
         (squared(at(-1, 0), at(1, 0)) + squared(at(0, -1), at(0, 1))) / 24.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A texel half in the shadow of its only lamp holds 1 where 0 and 2 are right.
+    #[test]
+    fn an_edge_is_wrong_on_both_sides() {
+        let error = DirectError { noise: 0.0, spread: 1.0, darkest: 0.0 };
+        let expected = 0.5 * (1.0 / 0.1_f32.powi(2) + 1.0 / 2.1_f32.powi(2));
+        assert!((squared_error_at_edges(1.0, 1.0, &error, 0.1) / expected - 1.0).abs() < 1e-6);
+        // Three quarters in the light: 1.5 where 0 and 2 are right, beside 1 that comes from elsewhere.
+        let error = DirectError { noise: 0.0, spread: 0.75, darkest: 0.0 };
+        let expected = 0.25 * (1.5 / 1.1_f32).powi(2) + 0.75 * (0.5 / 3.1_f32).powi(2);
+        assert!((squared_error_at_edges(2.5, 1.5, &error, 0.1) / expected - 1.0).abs() < 1e-6);
+        assert_eq!(squared_error_at_edges(1.0, 1.0, &DirectError::default(), 0.1), 0.0);
+    }
+
+    #[test]
+    fn warnings_tell_the_remedy() {
+        let estimate = |noise, rms| Estimate { light: Vec::new(), mean: 1.0, errors: Vec::new(), noise, rms };
+        assert_eq!(estimate(0.01, 0.019).warning(0.02, 8.0), None);
+        assert_eq!(estimate(0.01, 0.1).warning(0.0, 8.0), None);
+        assert!(estimate(0.01, 0.1).warning(0.02, 8.0).is_some_and(|text| text.contains("8.0 texels per meter")));
+        assert!(estimate(0.03, 0.04).warning(0.02, 8.0).is_some_and(|text| text.contains("higher quality")));
     }
 }

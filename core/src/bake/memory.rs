@@ -5,8 +5,8 @@ use super::{BakeError, BakeSettings, Keep};
 use crate::lightmap::Layout;
 use crate::scene::{Receiver, Scene};
 
-/// For each triangle: corners, normal, source, corners in the image, and its part of the tree.
-const TRIANGLE: u64 = 220;
+/// For each triangle: corners twice, normal, source, corners in the image, and its part of the tree while it is built.
+const TRIANGLE: u64 = 420;
 /// For each texel of an image: what covers it, its index, and the finished lightmap with its states.
 const TEXEL: u64 = 49;
 /// For each covered texel: the texel, direct, incident and gathered light, its patch and the lists that make these.
@@ -17,7 +17,7 @@ const PATCH: u64 = 150;
 const ENTRY: u64 = 8;
 /// For each covered texel of a transport: how it is mixed, its places, and what lamps give it.
 const KEPT: u64 = 200;
-/// For each of twice the rays of a texel, as refined ones have, while rows of transport are made one after the other.
+/// For each ray of a texel, while rows of transport are made one after the other.
 const KEPT_ENTRY: u64 = 6;
 
 /// An upper estimate of the memory that a bake needs beside the scene, in bytes.
@@ -42,7 +42,7 @@ pub(super) fn check(
     let patches = (texels / 64).max(budget.patches as u64).min(texels) * 2 + without;
     let kept = match settings.keep {
         Keep::Lightmaps => 0,
-        Keep::Transport => KEPT + u64::from(budget.gather.rays) * 2 * KEPT_ENTRY,
+        Keep::Transport => KEPT + u64::from(budget.kept) * KEPT_ENTRY,
     };
     let needed = triangles * TRIANGLE
         + texels * (TEXEL + COVERED + kept)

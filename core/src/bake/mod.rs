@@ -32,7 +32,7 @@ use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
 use crate::scene::{Scene, World};
 use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
-use assemble::Assembly;
+use assemble::{Assembly, Repairs};
 use emitters::Lamp;
 use estimate::Estimate;
 use field::Field;
@@ -127,11 +127,12 @@ pub fn bake_logged(
     let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
     let seam_report = seams.solve(&mut images, workers, progress)?;
     let seam_texels = seam_texels(&seams, &images);
-    let done = Done { world: &world, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
+    let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
+    let mut done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
+    done.warnings.extend(estimate.warning(settings.target_error, layout.texels_per_meter));
     let transport = match settings.keep {
         Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, fills, seams, scene)?),
+        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, Repairs { fills, seams }, scene)?),
     };
     let report = Report {
         images: images.len(),
@@ -217,12 +218,8 @@ impl<O: Occluders> Baker<'_, O> {
             settings: self.budget.gather,
             seed: self.seeds.of(4),
         };
-        let mut nodes = gather.run(workers, progress)?;
-        let total = |(direct, node): (&Vec3A, &crate::lightmap::Gathered)| Vec3::from(*direct) + node.irradiance;
-        let lights: Vec<f32> = direct.iter().zip(&nodes.gathered).map(|pair| total(pair).element_sum() / 3.0).collect();
-        let mean = lights.iter().sum::<f32>() / lights.len().max(1) as f32;
-        gather.refine(&mut nodes, |texel| lights[texel] + 0.1 * mean, workers, progress)?;
-        Ok(nodes)
+        let direct: Vec<f32> = direct.iter().map(|direct| direct.element_sum() / 3.0).collect();
+        gather.run(&direct, workers, progress)
     }
 }
 

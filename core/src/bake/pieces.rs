@@ -7,7 +7,7 @@ use core::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 use crate::geometry::{Hit, Occluders, Sobol, cosine_direction, hash};
-use crate::light::{Lamps, Region};
+use crate::light::{Guide, Lamps, Region};
 use crate::lightmap::{NONE, Patch, Patches, Site, Texels};
 use crate::math;
 use crate::parallel::Workers;
@@ -191,6 +191,7 @@ impl<O: Occluders> Pieces<'_, O> {
         let sites: [_; DIRECT_POINTS as usize] = core::array::from_fn(|k| site(k as u32));
         let region = Region::around(sites.iter().map(|&(_, point, normal)| (point, normal, 0.0)));
         let cut = lamps.cut(&region, sites[0].1, sites[0].2);
+        let guide = Guide::new(&cut);
         let mut sum = Vec3::ZERO;
         for (k, &(triangle, point, normal)) in sites.iter().enumerate() {
             let square = sequence.square(k as u32);
@@ -204,7 +205,7 @@ impl<O: Occluders> Pieces<'_, O> {
                 irradiance * self.tracer.visibility(&self.tracer.leave_for(triangle, point, normal, &shadow))
             };
             sum += cut.lamps.iter().map(|&lamp| seen(lamp)).sum::<Vec3>();
-            let choice = lamps.choose(&cut, point, normal, sequence.dimension(k as u32, 2));
+            let choice = lamps.choose(&cut, &guide, point, normal, sequence.dimension(k as u32, 2));
             sum += choice.map_or(Vec3::ZERO, |choice| seen(choice.lamp) / choice.probability);
         }
         sum / (DIRECT_POINTS as f32 * PI)

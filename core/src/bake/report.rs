@@ -62,8 +62,10 @@ pub struct StageReport {
 /// Errors relative to the true value plus a tenth of the mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EstimatedError {
-    /// Root mean square: noise of indirect light, and what changes between texels.
+    /// Root mean square of all that is known: noise, what changes within and between texels, what the file rounds.
     pub rms: f32,
+    /// The part of it that more rays make smaller.
+    pub noise: f32,
     /// Mean signed error over the mean, from patches against texels.
     pub bias: f32,
 }

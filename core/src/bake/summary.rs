@@ -2,19 +2,24 @@
 
 use alloc::format;
 use alloc::string::String;
+use alloc::vec;
 use alloc::vec::Vec;
 
 use glam::Vec3A;
 
 use super::estimate::Estimate;
 use super::{EstimatedError, Report};
-use crate::lightmap::{Layout, Nodes, Smooth};
+use crate::lightmap::{Layout, Nodes, Smooth, Texels};
 use crate::scene::World;
 use crate::transport::{LARGEST_REFLECTANCE, Lighting, Rows, Solution, Surfaces};
+
+/// Most surfaces that a warning names.
+const NAMED: usize = 8;
 
 /// What a bake leaves behind. Lists of texels have one entry for each covered texel; light is irradiance / pi.
 pub(super) struct Done<'a> {
     pub world: &'a World<'a>,
+    pub texels: &'a Texels,
     pub is_valid: &'a [bool],
     pub surfaces: &'a Surfaces,
     pub solution: &'a Solution,
@@ -44,7 +49,11 @@ impl Done<'_> {
             texels_per_meter: layout.texels_per_meter,
             closure_error: self.rows.closure_error(),
             energy_balance: self.solution.energy_balance(self.surfaces, self.rows),
-            estimated_error: EstimatedError { rms: estimate.rms, bias: self.bias(estimate.mean, indirect) },
+            estimated_error: EstimatedError {
+                rms: estimate.rms,
+                noise: estimate.noise,
+                bias: self.bias(estimate.mean, indirect),
+            },
             warnings,
             ..Report::default()
         }
@@ -83,6 +92,7 @@ impl Done<'_> {
         if total.iter().all(|&light| light == 0.0) {
             warnings.push(String::from("every texel is black: no light reaches a surface with a lightmap"));
         }
+        warnings.extend(self.hidden());
         let lowered = self.surfaces.count_lowered(lighting);
         if lowered > 0 {
             warnings.push(format!(
@@ -91,5 +101,36 @@ impl Done<'_> {
             ));
         }
         warnings
+    }
+
+    /// A warning that names the surfaces of which charts lie inside geometry with all their texels.
+    fn hidden(&self) -> Option<String> {
+        let charts = self.texels.list.iter().map(|texel| texel.chart as usize + 1).max()?;
+        let (mut is_seen, mut surfaces) = (vec![false; charts], vec![u32::MAX; charts]);
+        for (texel, &is_valid) in self.texels.list.iter().zip(self.is_valid) {
+            is_seen[texel.chart as usize] |= is_valid;
+            surfaces[texel.chart as usize] = self.world.sources[texel.triangle as usize].surface;
+        }
+        let with_seen = surfaces.into_iter().zip(is_seen);
+        let hidden: Vec<u32> = with_seen
+            .filter(|&(surface, is_seen)| surface != u32::MAX && !is_seen)
+            .map(|(surface, _)| surface)
+            .collect();
+        let mut named = hidden.clone();
+        named.dedup();
+        let names = named
+            .iter()
+            .take(NAMED)
+            .map(|&surface| format!("\"{}\"", self.world.scene.surfaces[surface as usize].name));
+        let names: Vec<String> = names.collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "{} charts of {} surfaces ({}{}) lie inside others and took the light beside them in the lightmap; remove what nobody can see",
+                hidden.len(),
+                named.len(),
+                names.join(", "),
+                if named.len() > NAMED { ", ..." } else { "" },
+            )
+        })
     }
 }

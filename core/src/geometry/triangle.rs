@@ -18,6 +18,7 @@ pub struct ShearedRay {
 
 impl ShearedRay {
     /// Prepares a ray whose direction is not zero.
+    #[inline]
     pub fn new(ray: &Ray) -> Self {
         let d = ray.direction;
         let z = d.abs().max_position();

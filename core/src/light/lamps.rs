@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::Vec3;
 
-use super::{Choice, Cut, DirectLight, LightTree, Region};
+use super::{Choice, Cut, DirectLight, Guide, LightTree, Region};
 
 /// Up to so many lamps are all asked one by one, wherever their light may arrive.
 const FEW: usize = 32;
@@ -66,7 +66,7 @@ impl<'a> Lamps<'a> {
     }
 
     /// One of the lamps that a cut leaves out, for a point with its normal, by a number in `[0, 1)`.
-    pub fn choose(&self, cut: &Cut, point: Vec3, normal: Vec3, number: f32) -> Option<Choice> {
-        self.tree.choose(cut, &Region::point(point, normal), number)
+    pub fn choose(&self, cut: &Cut, guide: &Guide, point: Vec3, normal: Vec3, number: f32) -> Option<Choice> {
+        self.tree.choose(cut, guide, &Region::point(point, normal), number)
     }
 }

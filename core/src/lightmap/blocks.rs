@@ -1,52 +1,55 @@
-//! Blocks of texels with their neighbors: what is found out for all texels of a block at once.
+//! Blocks of texels of one chart: what is found out for many texels at once.
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::ops::Range;
 
-use super::{BLOCK, NONE, Texel, Texels};
+use super::{BLOCK, Texel, Texels};
 
-/// The covered texels of all images, block by block.
+/// The covered texels of all images, by blocks and charts.
 pub(super) struct Blocks {
-    /// The texels of each block, as a range of the list of texels.
-    pub list: Vec<Range<u32>>,
-    /// For each image and each of its blocks, row by row, the index of the block, or [`NONE`].
-    grids: Vec<Vec<u32>>,
-    /// For each image the blocks in a row.
-    widths: Vec<u32>,
+    /// The texels, block by block.
+    order: Vec<u32>,
+    /// Where in that order each block begins, and the end of the last one.
+    starts: Vec<u32>,
+    /// For each texel its block.
+    pub of_texel: Vec<u32>,
 }
 
 impl Blocks {
     pub fn new(texels: &Texels) -> Self {
-        let sizes = || texels.sizes.iter().map(|size| size.map(|side| side.div_ceil(BLOCK)));
-        let mut blocks = Self {
-            list: Vec::new(),
-            grids: sizes().map(|[width, height]| vec![NONE; (width * height) as usize]).collect(),
-            widths: sizes().map(|[width, _]| width).collect(),
+        let mut order: Vec<u32> = (0..texels.list.len() as u32).collect();
+        let key = |index: &u32| {
+            let Texel { image, pixel, chart, .. } = texels.list[*index as usize];
+            (image, pixel.map(|position| position / BLOCK as u16), chart)
         };
-        let mut start = 0;
-        for group in texels.list.chunk_by(|a, b| block_of(a) == block_of(b)) {
-            let (image, at) = (usize::from(group[0].image), blocks.place(&group[0]));
-            blocks.grids[image][at] = blocks.list.len() as u32;
-            blocks.list.push(start..start + group.len() as u32);
-            start += group.len() as u32;
+        // Texels come block by block already.
+        order
+            .chunk_by_mut(|a, b| (key(a).0, key(a).1) == (key(b).0, key(b).1))
+            .for_each(|block| block.sort_by_key(key));
+        let mut blocks = Self { starts: vec![0], of_texel: vec![0; order.len()], order: Vec::new() };
+        for (number, block) in order.chunk_by(|a, b| key(a) == key(b)).enumerate() {
+            block.iter().for_each(|&index| blocks.of_texel[index as usize] = number as u32);
+            blocks.starts.push(blocks.starts[number] + block.len() as u32);
         }
+        blocks.order = order;
         blocks
     }
 
-    fn place(&self, texel: &Texel) -> usize {
-        let [x, y] = texel.pixel.map(|position| u32::from(position) / BLOCK);
-        (y * self.widths[usize::from(texel.image)] + x) as usize
+    pub fn count(&self) -> usize {
+        self.starts.len() - 1
     }
 
-    /// The block in which a texel lies.
-    pub fn of(&self, texel: &Texel) -> u32 {
-        self.grids[usize::from(texel.image)][self.place(texel)]
+    /// The texels of a block, ascending.
+    pub fn texels(&self, block: usize) -> &[u32] {
+        &self.order[self.starts[block] as usize..self.starts[block + 1] as usize]
     }
-}
 
-fn block_of(texel: &Texel) -> [u16; 3] {
-    [texel.image, texel.pixel[0] / BLOCK as u16, texel.pixel[1] / BLOCK as u16]
+    /// What is listed block by block in the order of the texels.
+    pub fn scatter<T: Copy + Default>(&self, listed: &[T]) -> Vec<T> {
+        let mut scattered = vec![T::default(); listed.len()];
+        self.order.iter().zip(listed).for_each(|(&index, value)| scattered[index as usize] = *value);
+        scattered
+    }
 }
 
 /// The bit of a texel in the masks of its block.

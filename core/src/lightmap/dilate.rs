@@ -36,16 +36,10 @@ pub fn dilate(image: &mut LightmapImage, progress: &Progress) -> Result<Fills, C
     let mut gutter: Vec<usize> = Vec::new();
     for _ in 0..GUTTER {
         progress.check()?;
-        let mut ring: Vec<usize> =
-            front.iter().flat_map(|&at| neighbors(filling.image, at)).map(|(_, at)| at).collect();
-        ring.retain(|&at| filling.image.states[at] == TexelState::Empty && !filling.known[at]);
-        ring.sort_unstable();
-        ring.dedup();
-        front = filling.grow(&ring, false);
+        front = filling.grow_around(&front, |state| state == TexelState::Empty);
         gutter.extend_from_slice(&front);
     }
-    // What has no valid texel in its chart takes from whatever is near.
-    filling.fill(rest, false, progress)?;
+    filling.reach(rest, progress)?;
     gutter.iter().for_each(|&at| filling.image.states[at] = TexelState::Gutter);
     Ok(filling.fills)
 }
@@ -65,6 +59,26 @@ impl Filling<'_> {
             wanted.retain(|&at| !self.known[at]);
         }
         Ok(wanted)
+    }
+
+    /// Charts without a valid texel take from whatever is near, over empty texels if need be.
+    fn reach(&mut self, mut wanted: Vec<usize>, progress: &Progress) -> Result<(), Cancelled> {
+        let mut front: Vec<usize> = (0..self.known.len()).filter(|&at| !wanted.is_empty() && self.known[at]).collect();
+        while !wanted.is_empty() && !front.is_empty() {
+            progress.check()?;
+            front = self.grow_around(&front, |_| true);
+            wanted.retain(|&at| !self.known[at]);
+        }
+        Ok(())
+    }
+
+    /// One ring of unknown texels in a state that counts around others.
+    fn grow_around(&mut self, front: &[usize], counts: impl Fn(TexelState) -> bool) -> Vec<usize> {
+        let mut ring: Vec<usize> = front.iter().flat_map(|&at| neighbors(self.image, at)).map(|(_, at)| at).collect();
+        ring.retain(|&at| counts(self.image.states[at]) && !self.known[at]);
+        ring.sort_unstable();
+        ring.dedup();
+        self.grow(&ring, false)
     }
 
     /// One ring: those of `wanted` that have known neighbors. Returns them.

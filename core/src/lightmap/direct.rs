@@ -6,7 +6,6 @@
 
 use alloc::vec::Vec;
 use core::f32::consts::PI;
-use core::ops::Range;
 
 use glam::{Vec2, Vec3};
 
@@ -15,7 +14,7 @@ use super::footprint::Footprint;
 use super::samples::Samples;
 use super::{Texel, Texels};
 use crate::geometry::{Occluders, Sobol, hash};
-use crate::light::{Cut, DirectLight, Lamps, Region};
+use crate::light::{Cut, DirectLight, Guide, Lamps, Region};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::transport::Tracer;
@@ -25,7 +24,8 @@ use crate::transport::Tracer;
 pub struct ShadowRays {
     /// For every texel, for a lamp with an extent; a lamp without needs one.
     pub first: u32,
-    /// Where those, or those of a neighbor, disagree: at the border of shadows, for a lamp without extent.
+    /// Where those, or those of a neighbor, disagree: at the border of shadows, for a lamp without extent. With 1 a texel
+    /// holds the light of its middle, with more the mean over all of it.
     pub sharp: u32,
     /// At most, for a lamp with an extent, in penumbrae, and for all lamps together that are asked by chance.
     pub most: u32,
@@ -125,26 +125,27 @@ impl<O: Occluders> Direct<'_, O> {
     /// Where the progress was told to cancel.
     pub fn light(&self, lamps: &Lamps, workers: &Workers, progress: &Progress) -> Result<Vec<DirectTexel>, Cancelled> {
         let blocks = Blocks::new(self.texels);
-        let count = blocks.list.len();
+        let count = blocks.count();
         progress.enter_part(0, 2);
         let looks = workers.map(count, 8, progress, |range| {
-            range.map(|block| self.first_look(lamps, blocks.list[block].clone())).collect()
+            range.map(|block| self.first_look(lamps, blocks.texels(block))).collect()
         })?;
         let valid = self.is_valid.iter().filter(|&&is_valid| is_valid).count();
         let mean = looks.iter().flat_map(|look| &look.levels).sum::<f32>() / valid.max(1) as f32;
         progress.enter_part(1, 2);
-        workers.map(count, 8, progress, |range| {
+        let lights = workers.map(count, 8, progress, |range| {
             range.flat_map(|block| self.second_look(lamps, &blocks, &looks, block, mean)).collect()
-        })
+        })?;
+        Ok(blocks.scatter(&lights))
     }
 
     /// What a block of texels sees from the middles of its texels by few rays.
-    fn first_look(&self, lamps: &Lamps, block: Range<u32>) -> BlockLook {
-        let cut = self.cut(lamps, block.clone());
+    fn first_look(&self, lamps: &Lamps, block: &[u32]) -> BlockLook {
+        let cut = self.cut(lamps, block);
         let mut levels = alloc::vec![0.0; block.len()];
         let looks = cut.lamps.iter().map(|&lamp| {
             let mut look = Look::default();
-            for (index, level) in block.clone().zip(&mut levels) {
+            for (&index, level) in block.iter().zip(&mut levels) {
                 let Texel { position, normal, .. } = self.texels.list[index as usize];
                 let irradiance = lamps.irradiance(lamp, position, normal);
                 if !self.is_valid[index as usize] || irradiance == Vec3::ZERO {
@@ -163,8 +164,8 @@ impl<O: Occluders> Direct<'_, O> {
     }
 
     /// Which lamps to ask one by one.
-    fn cut(&self, lamps: &Lamps, block: Range<u32>) -> Cut {
-        let valid = block.filter(|&index| self.is_valid[index as usize]).map(|index| {
+    fn cut(&self, lamps: &Lamps, block: &[u32]) -> Cut {
+        let valid = block.iter().filter(|&&index| self.is_valid[index as usize]).map(|&index| {
             let texel = &self.texels.list[index as usize];
             (texel.position, texel.normal, Footprint::new(texel, self.texels, self.tracer.world).reach())
         });
@@ -197,13 +198,13 @@ impl<O: Occluders> Direct<'_, O> {
         block: usize,
         mean: f32,
     ) -> Vec<DirectTexel> {
-        let (range, own) = (blocks.list[block].clone(), &looks[block]);
+        let (texels, own) = (blocks.texels(block), &looks[block]);
         let tolerated = |k: usize| self.rays.noise * (own.levels[k] + 0.1 * mean);
-        let mut sums: Vec<DirectTexel> = range.clone().map(|_| DirectTexel::default()).collect();
-        let neighbors: Vec<_> = range.clone().map(|index| self.neighbors(blocks, block as u32, index)).collect();
+        let mut sums: Vec<DirectTexel> = texels.iter().map(|_| DirectTexel::default()).collect();
+        let neighbors: Vec<_> = texels.iter().map(|&index| self.neighbors(blocks, index)).collect();
         for (slot, &lamp) in own.cut.lamps.iter().enumerate() {
             let look_of = |other: u32| looks[other as usize].of(lamp);
-            for (k, index) in range.clone().enumerate() {
+            for (k, &index) in texels.iter().enumerate() {
                 let texel = &self.texels.list[index as usize];
                 let seen = own.looks[slot].of(bit(texel));
                 let is_unlit = seen == [false; 2];
@@ -225,8 +226,12 @@ impl<O: Occluders> Direct<'_, O> {
                 sums[k].error += light.error;
             }
         }
-        for (k, index) in range.enumerate().filter(|(_, index)| self.is_valid[*index as usize]) {
-            let rest = self.by_chance(lamps, &own.cut, index, tolerated(k));
+        let mut guide = Guide::new(&own.cut);
+        if guide.is_empty() {
+            return sums;
+        }
+        for (k, &index) in texels.iter().enumerate().filter(|(_, index)| self.is_valid[**index as usize]) {
+            let rest = self.by_chance(lamps, &own.cut, &mut guide, index, tolerated(k));
             sums[k].irradiance += rest.irradiance;
             sums[k].error += rest.error;
         }
@@ -236,7 +241,10 @@ impl<O: Occluders> Direct<'_, O> {
     /// Light by many rays from all over a texel.
     fn by_many_rays(&self, lamps: &Lamps, lamp: u32, index: u32, tolerated: f32) -> DirectTexel {
         let texel = &self.texels.list[index as usize];
-        let points = Footprint::new(texel, self.texels, self.tracer.world);
+        let points = match self.rays.sharp {
+            0 | 1 => Footprint::middle(texel),
+            _ => Footprint::new(texel, self.texels, self.tracer.world),
+        };
         let (light, sequence) = (lamps.light(lamp), self.sequence(lamp, index));
         if light.is_sharp() {
             return self.sharp(lamps, lamp, index, &points, &sequence);
@@ -259,7 +267,8 @@ impl<O: Occluders> Direct<'_, O> {
     fn sharp(&self, lamps: &Lamps, lamp: u32, index: u32, points: &Footprint, sequence: &Sobol) -> DirectTexel {
         let normal = self.texels.list[index as usize].normal;
         let (mut sum, mut levels) = (Vec3::ZERO, Samples::default());
-        for k in 0..self.rays.sharp {
+        let rays = self.rays.sharp.max(1);
+        for k in 0..rays {
             let point = points.point(sequence, k, 0);
             let [weight, value] = self.sample(lamps.light(lamp), index, sequence, k, point);
             let share = if weight > 0.0 { value / weight } else { 0.0 };
@@ -268,35 +277,38 @@ impl<O: Occluders> Direct<'_, O> {
             levels.put(sequence.square(k), 1.0, lit.element_sum() / 3.0);
         }
         let error = DirectError { noise: levels.variance(), spread: levels.spread(), darkest: levels.least() };
-        DirectTexel { irradiance: sum / self.rays.sharp as f32, error }
+        DirectTexel { irradiance: sum / rays as f32, error }
     }
 
     /// Light from the lamps that were not asked one by one: for each ray one of them, the likelier the more it may give.
-    fn by_chance(&self, lamps: &Lamps, cut: &Cut, index: u32, tolerated: f32) -> DirectTexel {
-        if cut.rest() <= 0.0 {
-            return DirectTexel::default();
-        }
+    fn by_chance(&self, lamps: &Lamps, cut: &Cut, guide: &mut Guide, index: u32, tolerated: f32) -> DirectTexel {
         let Texel { position, normal, .. } = self.texels.list[index as usize];
         let sequence = self.sequence(u32::MAX, index);
-        let (mut sum, mut samples, mut done, mut rays) = (Vec3::ZERO, Samples::line(), 0, FEWEST);
+        let (mut sum, mut samples, mut gave, mut rays) = (Vec3::ZERO, Samples::line(), Vec::new(), FEWEST);
         loop {
-            for k in done..rays {
+            for k in samples.count()..rays {
                 let number = sequence.dimension(k, 2);
-                let lit = lamps.choose(cut, position, normal, number).map_or(Vec3::ZERO, |choice| {
+                let lit = lamps.choose(cut, guide, position, normal, number).map_or(Vec3::ZERO, |choice| {
                     let irradiance = lamps.irradiance(choice.lamp, position, normal);
                     let [weight, value] = self.sample(lamps.light(choice.lamp), index, &sequence, k, position);
                     let share = if weight > 0.0 { value / weight } else { 0.0 };
-                    irradiance * (share / (choice.probability * PI))
+                    let lit = irradiance * (share / choice.probability);
+                    gave.push((choice, lit.element_sum() / 3.0));
+                    lit / PI
                 });
                 sum += lit;
                 samples.put(Vec2::new(number, 0.0), 1.0, lit.element_sum() / 3.0);
             }
-            let noise = samples.variance();
+            // Chance may hide what is rarely seen: one more ray that sees as much as was expected.
+            let expected = guide.expected() / (PI * PI);
+            let count = rays as f32;
+            let noise = (samples.variance() * count + expected / count) / (count + 1.0);
             if rays >= self.rays.most || noise <= tolerated * tolerated {
+                guide.learn(&gave);
                 let error = DirectError { noise, spread: 0.0, darkest: samples.mean() };
                 return DirectTexel { irradiance: sum / rays as f32, error };
             }
-            (done, rays) = (rays, 2 * rays);
+            rays *= 2;
         }
     }
 
@@ -330,15 +342,14 @@ impl<O: Occluders> Direct<'_, O> {
     }
 
     /// The valid texels of the same chart among the eight around a texel, each by its block and its bit.
-    fn neighbors(&self, blocks: &Blocks, block: u32, index: u32) -> [Option<(u32, u64)>; 8] {
+    fn neighbors(&self, blocks: &Blocks, index: u32) -> [Option<(u32, u64)>; 8] {
         let Texel { pixel: [x, y], image, chart, .. } = self.texels.list[index as usize];
         core::array::from_fn(|k| {
             let k = if k < 4 { k } else { k + 1 } as i32;
             let other = self.texels.at_pixel(u32::from(image), i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1)?;
             let texel = &self.texels.list[other as usize];
             let counts = texel.chart == chart && self.is_valid[other as usize];
-            let is_inside = blocks.list[block as usize].contains(&other);
-            counts.then(|| (if is_inside { block } else { blocks.of(texel) }, bit(texel)))
+            counts.then(|| (blocks.of_texel[other as usize], bit(texel)))
         })
     }
 }

@@ -36,9 +36,29 @@ pub fn filter(
     workers: &Workers,
     progress: &Progress,
 ) -> Result<Vec<Smooth>, Cancelled> {
-    workers.map(gathered.len(), 1024, progress, |range| {
+    let smooth: Vec<Smooth> = workers.map(gathered.len(), 1024, progress, |range| {
         range.map(|index| filtered(index, gathered, texels, is_valid)).collect()
+    })?;
+    workers.map(gathered.len(), 1024, progress, |range| {
+        let variance = |index| variance_around(index, &smooth, texels, is_valid);
+        range.map(|index| Smooth { variance: variance(index), ..smooth[index] }).collect()
     })
+}
+
+/// The mean variance of the texels around one: that of one alone, from two halves, is too uncertain.
+fn variance_around(index: usize, smooth: &[Smooth], texels: &Texels, is_valid: &[bool]) -> f32 {
+    let Texel { pixel: [x, y], image, chart, .. } = texels.list[index];
+    let (mut sum, mut count) = (0.0, 0.0_f32);
+    for k in 0..9 {
+        let (x, y) = (i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1);
+        let Some(other) = texels.at_pixel(u32::from(image), x, y) else { continue };
+        let other = other as usize;
+        if is_valid[other] && texels.list[other].chart == chart {
+            sum += smooth[other].variance;
+            count += 1.0;
+        }
+    }
+    sum / count.max(1.0)
 }
 
 fn filtered(index: usize, gathered: &[Gathered], texels: &Texels, is_valid: &[bool]) -> Smooth {
@@ -67,17 +87,20 @@ pub fn stencil(
         return visit(index, 1.0);
     }
     let reach = (math::ceil(2.0 * sigma) as i32).min(REACH);
-    for y in -reach..=reach {
-        for x in -reach..=reach {
-            let Some(other) = neighbor(texel, texels, is_valid, x, y) else { continue };
-            if !texels.is_connected(index as u32, x, y) {
-                continue;
-            }
-            // Neither mixes far into what the other sees near.
-            let narrow = sigma.min(sigma * gathered[other].distance / own.distance.max(1e-9)).max(0.2);
-            visit(other, math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow)));
+    let weight = |x: i32, y: i32| {
+        let other = neighbor(texel, texels, is_valid, x, y).filter(|_| texels.is_connected(index as u32, x, y))?;
+        // Neither mixes far into what the other sees near.
+        let narrow = sigma.min(sigma * gathered[other].distance / own.distance.max(1e-9)).max(0.2);
+        Some((other, math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow))))
+    };
+    // What lies opposite counts as much: one that looks to one side only is wrong wherever light changes.
+    for y in 0..=reach {
+        for x in if y == 0 { 1 } else { -reach }..=reach {
+            let (Some((one, share)), Some((other, opposite))) = (weight(x, y), weight(-x, -y)) else { continue };
+            [one, other].into_iter().for_each(|texel| visit(texel, share.min(opposite)));
         }
     }
+    visit(index, 1.0);
 }
 
 fn neighbor(texel: &Texel, texels: &Texels, is_valid: &[bool], x: i32, y: i32) -> Option<usize> {

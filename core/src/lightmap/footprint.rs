@@ -38,6 +38,18 @@ impl Footprint {
         footprint
     }
 
+    /// The position of a texel alone.
+    pub fn middle(texel: &Texel) -> Self {
+        Self {
+            position: texel.position,
+            middle: texel.position,
+            steps: [Vec3::ZERO; 2],
+            quarters: [Vec2::ZERO; 4],
+            visible: 0,
+            is_whole: false,
+        }
+    }
+
     /// Point `k`: all over a texel that is whole, else one of the middles of its visible quarters, else its own. Two
     /// dimensions of the sequence are used, from `dimension` on.
     pub fn point(&self, sequence: &Sobol, k: u32, dimension: usize) -> Vec3 {

@@ -2,6 +2,7 @@
 
 mod atlas;
 mod blend;
+mod cells;
 mod blocks;
 mod chart;
 mod clip;
@@ -16,6 +17,7 @@ mod links;
 mod overlap;
 mod patches;
 mod plan;
+mod refine;
 mod samples;
 mod seam;
 mod texel;

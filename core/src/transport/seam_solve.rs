@@ -5,7 +5,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use glam::{DVec3, Vec3A};
+use glam::{BVec3A, DVec3, Vec3A};
 
 use super::Seams;
 use crate::parallel::Workers;
@@ -15,6 +15,8 @@ use crate::progress::{Cancelled, Progress};
 const TOLERANCE: f32 = 3e-3;
 /// Iterations that are enough wherever texels lie side by side.
 const MOST_ITERATIONS: usize = 60;
+/// How often texels that would become negative are found.
+const ROUNDS: usize = 3;
 /// Rows that are worked on together.
 const CHUNK: usize = 4096;
 /// How much both sides of half a texel of a seam must agree, against all below.
@@ -45,6 +47,15 @@ struct Unknown {
     light: Vec3A,
     residual: Vec3A,
     product: Vec3A,
+    /// The channels that are held at zero.
+    held: BVec3A,
+}
+
+impl Unknown {
+    /// Zero in the channels that are held.
+    fn free(&self, light: Vec3A) -> Vec3A {
+        Vec3A::select(self.held, Vec3A::ZERO, light)
+    }
 }
 
 impl<'a> SeamSolver<'a> {
@@ -70,34 +81,61 @@ impl<'a> SeamSolver<'a> {
 
     /// Changes the light of touched texels so that the sides of seams agree; it stays non-negative.
     ///
-    /// Conjugate gradients with the diagonal as preconditioner, all channels at once. Returns the iterations.
+    /// What would become negative is held at zero, and the others are solved anew. Returns the iterations.
     ///
     /// # Errors
     ///
     /// Where the progress was told to cancel; the light is as it was.
     pub fn solve(&self, light: &mut [Vec3A], workers: &Workers, progress: &Progress) -> Result<usize, Cancelled> {
-        let mut directions: Vec<Vec3A> = light.to_vec();
+        let target = self.target(light);
         let mut unknowns: Vec<Unknown> = light.iter().map(|&light| Unknown { light, ..Default::default() }).collect();
-        self.multiply(&directions, &mut unknowns, workers, progress)?;
-        for (texel, unknown) in unknowns.iter_mut().enumerate() {
-            unknown.residual = unknown.light * self.seams.holds[texel] - unknown.product;
+        let (mut iterations, mut enough) = (0, DVec3::ZERO);
+        for _ in 0..ROUNDS {
+            iterations += self.iterate(&target, &mut unknowns, &mut enough, workers, progress)?;
+            for unknown in &mut unknowns {
+                unknown.held |= unknown.light.cmplt(Vec3A::ZERO);
+                unknown.light = unknown.light.max(Vec3A::ZERO);
+            }
         }
+        light.iter_mut().zip(&unknowns).for_each(|(light, unknown)| *light = unknown.light);
+        Ok(iterations)
+    }
+
+    /// The right side of the equations.
+    fn target(&self, light: &[Vec3A]) -> Vec<Vec3A> {
+        let mut target: Vec<Vec3A> = light.iter().zip(&self.seams.holds).map(|(light, hold)| light * *hold).collect();
         for &[a, b] in &self.seams.links {
             let [a, b] = [a as usize, b as usize];
             let pull = FADING * (light[a] - light[b]);
-            unknowns[a].residual += pull;
-            unknowns[b].residual -= pull;
+            target[a] += pull;
+            target[b] -= pull;
         }
-        for (texel, unknown) in unknowns.iter().enumerate() {
+        target
+    }
+
+    /// Conjugate gradients with the diagonal as preconditioner, all channels at once; what is held stays. The residual that
+    /// is small enough is a share of the largest at a start.
+    fn iterate(
+        &self,
+        target: &[Vec3A],
+        unknowns: &mut [Unknown],
+        enough: &mut DVec3,
+        workers: &Workers,
+        progress: &Progress,
+    ) -> Result<usize, Cancelled> {
+        let mut directions: Vec<Vec3A> = unknowns.iter().map(|unknown| unknown.light).collect();
+        self.multiply(&directions, unknowns, workers, progress)?;
+        for (texel, unknown) in unknowns.iter_mut().enumerate() {
+            unknown.residual = unknown.free(target[texel] - unknown.product);
             directions[texel] = unknown.residual * self.inverse[texel];
         }
         let first = sum(unknowns.iter().zip(&directions).map(|(unknown, direction)| unknown.residual * direction));
         let (mut remaining, mut iterations) = (first, 0);
-        let enough = first * f64::from(TOLERANCE * TOLERANCE);
-        while iterations < MOST_ITERATIONS && remaining.cmpgt(enough).any() {
-            let curvature = self.multiply(&directions, &mut unknowns, workers, progress)?;
+        *enough = enough.max(first * f64::from(TOLERANCE * TOLERANCE));
+        while iterations < MOST_ITERATIONS && remaining.cmpgt(*enough).any() {
+            let curvature = self.multiply(&directions, unknowns, workers, progress)?;
             let length = quotient(remaining, curvature);
-            let after = self.advance(length, &directions, &mut unknowns, workers, progress)?;
+            let after = self.advance(length, &directions, unknowns, workers, progress)?;
             let turn = quotient(after, remaining);
             workers.update(&mut directions, CHUNK, progress, |start, chunk| {
                 for (texel, direction) in (start..).zip(chunk) {
@@ -106,7 +144,6 @@ impl<'a> SeamSolver<'a> {
             })?;
             (remaining, iterations) = (after, iterations + 1);
         }
-        light.iter_mut().zip(&unknowns).for_each(|(light, unknown)| *light = unknown.light.max(Vec3A::ZERO));
         Ok(iterations)
     }
 
@@ -123,7 +160,8 @@ impl<'a> SeamSolver<'a> {
             sum((start..).zip(chunk).map(|(texel, unknown)| {
                 let end = self.ends[texel] as usize;
                 let row = self.entries[entry..end].iter();
-                unknown.product = row.map(|&(column, number)| directions[column as usize] * number).sum();
+                let product = row.map(|&(column, number)| directions[column as usize] * number).sum();
+                unknown.product = unknown.free(product);
                 entry = end;
                 unknown.product * directions[texel]
             }))
@@ -234,5 +272,59 @@ impl Lists {
     fn of(&self, texel: u32) -> &[u32] {
         let start = if texel == 0 { 0 } else { self.ends[texel as usize - 1] };
         &self.users[start as usize..self.ends[texel as usize] as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transport::{Sample, SeamPoint};
+
+    /// Two charts of two rows of four texels that meet along their long sides, with no gutters.
+    fn strips() -> Seams {
+        let side = |upper: u32| Sample { upper, lower: upper + 4, right: 0.5, down: 0.5 };
+        let point = |k: u32| SeamPoint { sides: [side(k), side(8 + k)], weight: 1.0 };
+        Seams {
+            texels: vec![(0..16).collect()],
+            holds: vec![0.02; 16],
+            points: (0..3).map(point).collect(),
+            rows: Vec::new(),
+            links: (0..3).flat_map(|k| [0, 4, 8, 12].map(|row| [row + k, row + k + 1])).collect(),
+        }
+    }
+
+    fn solved(seams: &Seams, light: impl Fn(usize) -> f32) -> Vec<f32> {
+        let (workers, progress) = (Workers::new(1), Progress::with_clock(|| 0.0));
+        let mut touched: Vec<Vec3A> = (0..16).map(|texel| Vec3A::splat(light(texel))).collect();
+        let solver = SeamSolver::new(seams, &workers, &progress).unwrap();
+        solver.solve(&mut touched, &workers, &progress).unwrap();
+        touched.into_iter().map(|light| light.x).collect()
+    }
+
+    /// What is the same everywhere stays, but for rounding.
+    #[test]
+    fn without_a_step_nothing_changes() {
+        let light = solved(&strips(), |_| 0.75);
+        assert!(light.iter().all(|light| (light - 0.75).abs() < 1e-5), "{light:?}");
+    }
+
+    /// Both sides come to the middle where they hold alike, and the one that holds less gives way where not.
+    #[test]
+    fn sides_agree() {
+        let mut seams = strips();
+        let light = solved(&seams, |texel| if texel < 8 { 1.0 } else { 2.0 });
+        assert!(light.iter().all(|light| (light - 1.5).abs() < 0.02), "{light:?}");
+        seams.holds[8..].fill(2e-5);
+        let light = solved(&seams, |texel| if texel < 8 { 1.0 } else { 2.0 });
+        assert!(light.iter().all(|light| (light - 1.0).abs() < 0.02), "{light:?}");
+    }
+
+    /// A side that would have to become negative stays at zero, and the other comes to it.
+    #[test]
+    fn no_light_is_negative() {
+        let mut seams = strips();
+        seams.links.clear();
+        let light = solved(&seams, |texel| if texel == 9 { 10.0 } else { 0.0 });
+        assert!(light.iter().all(|light| *light >= 0.0) && light[9] > 1.0, "{light:?}");
     }
 }

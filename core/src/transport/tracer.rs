@@ -36,10 +36,9 @@ impl<'a, O: Occluders> Tracer<'a, O> {
     /// by `seed`. Where two one-sided surfaces lie back to back, the one that faces the ray is met.
     #[inline]
     pub fn nearest(&self, ray: &Ray, seed: u32) -> Option<Hit> {
-        let scale = 4.0 / ray.direction.length();
         self.occluders.first(ray, |hit| {
             let shows = hit.front || self.world.sides[hit.triangle as usize].both;
-            let slack = if shows { 0.0 } else { scale * self.world.lift(hit.triangle) };
+            let slack = if shows { 0.0 } else { 4.0 * self.world.lift(hit.triangle) / ray.direction.length() };
             self.blocks(hit, seed).then_some(hit.distance + slack)
         })
     }

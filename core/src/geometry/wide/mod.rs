@@ -87,6 +87,12 @@ impl Tree {
         tree
     }
 
+    /// The same tree, traversed with what every processor has.
+    #[cfg(test)]
+    pub fn plain(self) -> Self {
+        Self { level: Level::plain(), ..self }
+    }
+
     /// See [`super::Occluders::first`].
     #[inline]
     pub fn first(&self, ray: &Ray, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit> {
@@ -140,21 +146,26 @@ impl<P: Fn(&Hit) -> Option<f32>> Task for First<'_, P> {
         let (boxes, sheared) = (BoxRay::new(lanes, ray), LeafRay::new(lanes, ray));
         let mut first: Option<(f32, Hit)> = None;
         let mut end = ray.end;
+        let mut limit = end * (1.0 + 1e-6);
         let mut stack = Stack::new();
         let mut next = 0;
         loop {
             if next & LEAF == 0 {
                 let node = &tree.nodes[next as usize];
                 // What lies at the same place must be visited too.
-                let (mut met, nears) = boxes.meet(lanes, node, end * (1.0 + 1e-6));
+                let (mut met, nears) = boxes.meet(lanes, node, limit);
                 if met != 0 {
-                    let lane = met.trailing_zeros() as usize;
+                    let lane = met.trailing_zeros() as usize & (LANES - 1);
                     met &= met - 1;
-                    let mut nearest = entry(nears[lane & 7], node.children[lane & 7]);
+                    if met == 0 {
+                        next = node.children[lane];
+                        continue;
+                    }
+                    let mut nearest = entry(nears[lane], node.children[lane]);
                     while met != 0 {
-                        let lane = met.trailing_zeros() as usize;
+                        let lane = met.trailing_zeros() as usize & (LANES - 1);
                         met &= met - 1;
-                        let other = entry(nears[lane & 7], node.children[lane & 7]);
+                        let other = entry(nears[lane], node.children[lane]);
                         stack.push(nearest.max(other));
                         nearest = nearest.min(other);
                     }
@@ -169,13 +180,14 @@ impl<P: Fn(&Hit) -> Option<f32>> Task for First<'_, P> {
                     {
                         first = Some(placed);
                         end = placed.0.min(ray.end);
+                        limit = end * (1.0 + 1e-6);
                     }
                     false
                 });
             }
             loop {
                 let Some(entry) = stack.pop() else { return first.map(|(_, hit)| hit) };
-                if f32::from_bits((entry >> 32) as u32) <= end * (1.0 + 1e-6) {
+                if f32::from_bits((entry >> 32) as u32) <= limit {
                     next = entry as u32;
                     break;
                 }
@@ -225,5 +237,20 @@ impl<S: FnMut(&Hit) -> bool> Task for Any<'_, S> {
                 None => return false,
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A stack deeper than its first part loses nothing.
+    #[test]
+    fn deep_stacks() {
+        let mut stack = Stack::new();
+        (0..1000).for_each(|entry| stack.push(entry));
+        let mut popped: Vec<i32> = core::iter::from_fn(|| stack.pop()).collect();
+        popped.sort_unstable();
+        assert_eq!(popped, (0..1000).collect::<Vec<_>>());
     }
 }

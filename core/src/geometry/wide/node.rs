@@ -72,17 +72,23 @@ impl<L: Lanes> BoxRay<L> {
     /// The boxes that the ray meets up to `end`, one bit for each, and where it enters them.
     #[inline(always)]
     pub fn meet(&self, lanes: L, node: &Node, end: f32) -> (u32, [f32; LANES]) {
-        let mut enter = lanes.splat(0.0);
-        let mut leave = lanes.splat(end);
-        for axis in 0..3 {
-            let near = self.near[axis];
-            let far = if near < 3 { near + 3 } else { near - 3 };
-            let [near_origin, far_origin] = self.origins[axis];
-            let near = lanes.mul(lanes.sub(lanes.load(&node.planes[near]), near_origin), self.inverse[axis]);
-            let far = lanes.mul(lanes.sub(lanes.load(&node.planes[far]), far_origin), self.inverse[axis]);
-            enter = lanes.max(near, enter);
-            leave = lanes.min(far, leave);
-        }
+        let (near_x, far_x) = self.cross(lanes, node, 0);
+        let (near_y, far_y) = self.cross(lanes, node, 1);
+        let (near_z, far_z) = self.cross(lanes, node, 2);
+        let enter = lanes.max(lanes.max(near_x, near_y), lanes.max(near_z, lanes.splat(0.0)));
+        let leave = lanes.min(lanes.min(far_x, far_y), lanes.min(far_z, lanes.splat(end)));
         (lanes.bits(lanes.le(enter, leave)), lanes.store(enter))
+    }
+
+    /// Where the ray crosses the near and the far planes of an axis.
+    #[inline(always)]
+    fn cross(&self, lanes: L, node: &Node, axis: usize) -> (L::Numbers, L::Numbers) {
+        let near = self.near[axis];
+        let far = if near < 3 { near + 3 } else { near - 3 };
+        let [near_origin, far_origin] = self.origins[axis];
+        (
+            lanes.mul(lanes.sub(lanes.load(&node.planes[near]), near_origin), self.inverse[axis]),
+            lanes.mul(lanes.sub(lanes.load(&node.planes[far]), far_origin), self.inverse[axis]),
+        )
     }
 }

@@ -132,8 +132,11 @@ type Place = (u32, [u32; 2]);
 
 impl<O: Occluders> Numbering<'_, O> {
     fn seams(&self, meetings: &[Meeting], workers: &Workers, progress: &Progress) -> Result<Seams, Cancelled> {
-        let corners: Vec<[(Place, Vec2); 2]> =
-            meetings.iter().map(|meeting| meeting.sides.map(|(image, point)| self.corner(image, point))).collect();
+        let (corners, weights): (Vec<[(Place, Vec2); 2]>, Vec<f32>) = meetings
+            .iter()
+            .map(|meeting| (meeting.sides.map(|(image, point)| self.corner(image, point)), meeting.weight))
+            .filter(|(sides, _)| sides.iter().any(|&((image, at), _)| self.is_lit(image, at)))
+            .unzip();
         let mut touched: Vec<Place> =
             corners.as_flattened().iter().flat_map(|&((image, at), _)| square(at).map(|at| (image, at))).collect();
         sort(&mut touched);
@@ -156,8 +159,8 @@ impl<O: Occluders> Numbering<'_, O> {
             let [upper, _, lower, _] = square(at).map(|at| (image, at));
             Sample { upper: number(upper), lower: number(lower), right: share.x, down: share.y }
         };
-        let points = corners.iter().zip(meetings);
-        let points = points.map(|(&sides, meeting)| SeamPoint { sides: sides.map(sample), weight: meeting.weight });
+        let points = corners.iter().zip(weights);
+        let points = points.map(|(&sides, weight)| SeamPoint { sides: sides.map(sample), weight });
         let mut texels: Vec<Vec<u32>> = self.texels.sizes.iter().map(|_| Vec::new()).collect();
         touched.iter().for_each(|&(image, [x, y])| {
             texels[image as usize].push(y * self.texels.sizes[image as usize][0] + x);
@@ -181,6 +184,11 @@ impl<O: Occluders> Numbering<'_, O> {
 
     fn texel(&self, (image, [x, y]): Place) -> Option<usize> {
         self.texels.at_pixel(image, x as i32, y as i32).map(|texel| texel as usize)
+    }
+
+    /// Whether one of four texels has light of its own: others lie inside geometry, where nobody sees them.
+    fn is_lit(&self, image: u32, at: [u32; 2]) -> bool {
+        square(at).iter().any(|&at| self.texel((image, at)).is_some_and(|texel| self.is_valid[texel]))
     }
 
     fn hold(&self, place: Place) -> f32 {

@@ -1,0 +1,100 @@
+//! What a bake says of its own errors is true, and errors that are asked for are reached.
+
+#[expect(dead_code, reason = "each test uses a part of the helpers")]
+mod common;
+
+use common::*;
+use glam::Vec3;
+use radiosity::bake::{Bake, BakeSettings, Quality};
+use radiosity::light::{Light, LightSource, PointLight};
+use radiosity::lightmap::TexelState;
+use radiosity::scene::cornell_box;
+
+/// For each valid texel its mean over the channels and its estimated error.
+fn texels(bake: &Bake) -> Vec<(f32, f32)> {
+    let of_image = |image: &radiosity::lightmap::LightmapImage| {
+        let all = image.texels.iter().zip(&image.errors).zip(&image.states);
+        let valid = all.filter(|(_, state)| **state == TexelState::Valid);
+        valid.map(|((texel, error), _)| (texel.element_sum() / 3.0, *error)).collect::<Vec<_>>()
+    };
+    bake.images.iter().flat_map(of_image).collect()
+}
+
+/// Root mean square of |a - b| / (b + 0.1 mean b).
+fn difference(a: &Bake, b: &Bake) -> f32 {
+    let (a, b) = (texels(a), texels(b));
+    let floor = 0.1 * b.iter().map(|(light, _)| light).sum::<f32>() / b.len() as f32;
+    let squares = a.iter().zip(&b).map(|((a, _), (b, _))| ((a - b) / (b + floor)).powi(2));
+    (squares.sum::<f32>() / b.len() as f32).sqrt()
+}
+
+fn with_error(quality: Quality, target_error: f32) -> Bake {
+    baked(&cornell_box(), &BakeSettings { target_error, ..settings(50.0, quality) })
+}
+
+/// The variance that two halves of the rays of one bake tell is that of many bakes, each with rays of its own.
+#[test]
+fn halves_tell_the_variance() {
+    const BAKES: u64 = 12;
+    let bakes: Vec<_> = (0..BAKES)
+        .map(|seed| baked(&cornell_box(), &BakeSettings { seed, ..settings(60.0, Quality::Draft) }))
+        .map(|bake| texels(&bake))
+        .collect();
+    let count = bakes[0].len();
+    let mean = |texel: usize| bakes.iter().map(|bake| bake[texel].0).sum::<f32>() / BAKES as f32;
+    let floor = 0.1 * (0..count).map(mean).sum::<f32>() / count as f32;
+    let (mut told, mut found) = (0.0, 0.0);
+    for texel in 0..count {
+        let mean = mean(texel);
+        told += bakes.iter().map(|bake| bake[texel].1.powi(2)).sum::<f32>() / BAKES as f32;
+        let squares = bakes.iter().map(|bake| ((bake[texel].0 - mean) / (mean + floor)).powi(2));
+        found += squares.sum::<f32>() / (BAKES - 1) as f32;
+    }
+    let ratio = (told / found).sqrt();
+    assert!((0.7..1.6).contains(&ratio), "{ratio}");
+}
+
+/// An error that is asked for is there, measured against far more rays; without being asked for it is not.
+#[test]
+fn a_wanted_error_is_reached() {
+    let reference = with_error(Quality::High, 0.0);
+    let [draft, wanted] = [0.0, 0.02].map(|error| with_error(Quality::Draft, error));
+    let [before, after] = [&draft, &wanted].map(|bake| difference(bake, &reference));
+    assert!(before > 0.02 && after < 0.02, "{before} {after}");
+    for (bake, error) in [(&draft, before), (&wanted, after)] {
+        let ratio = bake.report.estimated_error.noise / error;
+        assert!((0.5..2.0).contains(&ratio), "{ratio} of {error}, {:?}", bake.report.estimated_error);
+    }
+    let rays = |bake: &Bake| bake.report.stages.iter().map(|stage| stage.rays).sum::<u64>();
+    assert!(rays(&wanted) < rays(&reference));
+}
+
+/// Rays that are added depend on what others found, not on who found it.
+#[test]
+fn threads_do_not_matter() {
+    let with = |threads| {
+        let settings = BakeSettings { threads, target_error: 0.02, ..settings(40.0, Quality::Draft) };
+        baked(&cornell_box(), &settings).images
+    };
+    let one = with(1);
+    assert!(with(3) == one);
+}
+
+/// Hard shadows between few texels are beyond what rays can do: a warning says so, and what helps.
+#[test]
+fn edges_of_shadows_need_texels() {
+    let mut scene = room([0.0; 3], [4.0, 3.0, 4.0], grey(0.5, 0.0));
+    add_box(&mut scene, "block", [1.5, 0.5, 1.5], [2.5, 1.5, 2.5], 0, false);
+    let lamp = PointLight {
+        position: Vec3::new(1.2, 2.8, 1.4),
+        intensity: Vec3::splat(100.0),
+        range: f32::INFINITY,
+        radius: 0.0,
+    };
+    scene.lights.push(Light { name: "lamp".into(), source: LightSource::Point(lamp) });
+    let bake = baked(&scene, &BakeSettings { target_error: 0.02, ..settings(4.0, Quality::Draft) });
+    let warns = |text: &&String| text.contains("instead of 2.0 %") && text.contains("texels per meter");
+    assert_eq!(bake.report.warnings.iter().filter(warns).count(), 1, "{:?}", bake.report.warnings);
+    assert!(bake.report.estimated_error.noise < 0.02);
+    assert!(texels(&bake).iter().all(|(_, error)| error.is_finite()));
+}
