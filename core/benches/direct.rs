@@ -29,7 +29,7 @@ fn main() {
     let layout = layout(&scene, &LayoutSettings { resolution, ..Default::default() }, &progress).expect("it fits");
     let world = World::new(&scene);
     let tracer = Tracer::new(&world, tree(world.corners.clone()));
-    let mut texels = Texels::new(&world, &layout, &progress).expect("nobody cancels");
+    let mut texels = Texels::new(&world, &layout, 0..layout.images.len(), &progress).expect("nobody cancels");
     let is_valid = check(&mut texels, &tracer, &workers, 1, &progress).expect("nobody cancels");
     println!("| lamps | us a texel | rays a texel | rms error | claimed |\n|---|---|---|---|---|");
     for count in [1, 10, 100, 1_000, 10_000] {

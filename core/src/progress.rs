@@ -49,6 +49,8 @@ pub struct Progress {
     reached: AtomicU32,
     part: AtomicU32,
     parts: AtomicU32,
+    group: AtomicU32,
+    groups: AtomicU32,
     cancelled: AtomicBool,
     clock: Box<dyn Fn() -> f64 + Send + Sync>,
 }
@@ -101,6 +103,8 @@ impl Progress {
             reached: AtomicU32::new(0),
             part: AtomicU32::new(0),
             parts: AtomicU32::new(1),
+            group: AtomicU32::new(0),
+            groups: AtomicU32::new(1),
             cancelled: AtomicBool::new(false),
             clock: Box::new(clock),
         }
@@ -129,11 +133,18 @@ impl Progress {
 
     /// Tells that a stage begins.
     pub fn enter(&self, stage: Stage) {
-        self.enter_part(0, 1);
+        self.enter_group(0, 1);
         self.reached.store((stage as u32) << SHARE_BITS, Ordering::Relaxed);
     }
 
-    /// Tells that one of several equal parts of the stage begins, counted from 0.
+    /// Tells that one of several equal groups of parts of the stage begins, counted from 0.
+    pub fn enter_group(&self, group: usize, groups: usize) {
+        self.enter_part(0, 1);
+        self.group.store(group as u32, Ordering::Relaxed);
+        self.groups.store(groups as u32, Ordering::Relaxed);
+    }
+
+    /// Tells that one of several equal parts of the group begins, counted from 0.
     pub fn enter_part(&self, part: usize, parts: usize) {
         self.part.store(part as u32, Ordering::Relaxed);
         self.parts.store(parts as u32, Ordering::Relaxed);
@@ -143,7 +154,9 @@ impl Progress {
     /// a smaller share than before changes nothing.
     pub fn advance(&self, done: f32) -> Result<(), Cancelled> {
         let (part, parts) = (self.part.load(Ordering::Relaxed), self.parts.load(Ordering::Relaxed));
+        let (group, groups) = (self.group.load(Ordering::Relaxed), self.groups.load(Ordering::Relaxed));
         let done = (part as f32 + done.clamp(0.0, 1.0)) / parts.max(1) as f32;
+        let done = (group as f32 + done.min(1.0)) / groups.max(1) as f32;
         let stage = self.reached.load(Ordering::Relaxed) & !WHOLE;
         self.reached.fetch_max(stage | (done.min(1.0) * WHOLE as f32) as u32, Ordering::Relaxed);
         self.check()
@@ -172,10 +185,13 @@ mod tests {
         for stage in Stage::ALL {
             progress.enter(stage);
             assert_not_back();
-            for (part, share) in [(0, 0.7), (0, 1.0), (1, 0.0), (1, 1.0), (0, 0.2)] {
-                progress.enter_part(part, 2);
-                progress.advance(share).unwrap();
-                assert_not_back();
+            for group in 0..3 {
+                progress.enter_group(group, 3);
+                for (part, share) in [(0, 0.7), (0, 1.0), (1, 0.0), (1, 1.0), (0, 0.2)] {
+                    progress.enter_part(part, 2);
+                    progress.advance(share).unwrap();
+                    assert_not_back();
+                }
             }
             assert_eq!(progress.snapshot().stage_done, 1.0);
         }

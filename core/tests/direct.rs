@@ -25,7 +25,7 @@ fn lit(scene: &Scene, density: f32, rays: ShadowRays, lights: &[LightSource]) ->
     let layout = layout(scene, &LayoutSettings { resolution, ..Default::default() }, &progress).unwrap();
     let world = World::new(scene);
     let tracer = Tracer::new(&world, tree(world.corners.clone()));
-    let mut texels = Texels::new(&world, &layout, &progress).unwrap();
+    let mut texels = Texels::new(&world, &layout, 0..layout.images.len(), &progress).unwrap();
     let is_valid = check(&mut texels, &tracer, &workers, 1, &progress).unwrap();
     let lights: Vec<DirectLight> = lights.iter().map(DirectLight::from).collect();
     let lamps = Lamps::new(lights.iter().map(|light| (light, Vec3::ONE)).collect());

@@ -94,7 +94,7 @@ impl Manifest {
     /// Describes a bake. `surface_key` names a surface by its index in the scene, where it can be found again.
     pub fn new(hash: String, bake: &Bake, surface_key: impl Fn(usize) -> Option<SurfaceKey>) -> Self {
         let images = bake.images.iter().enumerate().map(|(index, image)| ImageEntry {
-            file: format!("lightmap-{index}.ktx2"),
+            file: image_file(index),
             exr: None,
             width: image.width,
             height: image.height,
@@ -105,6 +105,11 @@ impl Manifest {
         });
         Self { version: 1, hash, images: images.collect(), surfaces: surfaces.collect(), lights: Vec::new() }
     }
+}
+
+/// The file of a lightmap.
+pub(crate) fn image_file(index: usize) -> String {
+    format!("lightmap-{index}.ktx2")
 }
 
 /// FNV-1a in hexadecimal, which stays the same forever.

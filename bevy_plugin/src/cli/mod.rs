@@ -6,6 +6,7 @@ mod document;
 mod error;
 mod export;
 mod exr;
+mod images;
 mod load;
 mod loadable;
 mod memory;
@@ -31,9 +32,10 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use clap::Parser;
-use radiosity::bake::{Bake, BakeSettings, bake_logged};
+use radiosity::bake::{Bake, BakeSettings, bake_into};
 use radiosity::geometry::{NoLog, RayLog};
-use radiosity::progress::Progress;
+use radiosity::lightmap::LightmapImage;
+use radiosity::progress::{Cancelled, Progress};
 use radiosity::scene::Scene;
 
 pub use self::error::CliError;
@@ -41,6 +43,7 @@ pub use self::export::write_glb;
 
 use self::args::Args;
 use self::document::Document;
+use self::images::Images;
 use self::memory::Budget;
 use self::output::Staging;
 use self::progress::Display;
@@ -129,24 +132,24 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     for warning in &loaded.collected.warnings {
         eprintln!("warning: {warning}");
     }
-    let staging = Staging::new(&args.out, interrupted)?;
+    let mut staging = Staging::new(&args.out, interrupted)?;
     let memory = Budget::new(settings.memory_bytes)?;
     let settings = BakeSettings { memory_bytes: memory.left(), ..settings };
     let scene = &loaded.collected.scene;
-    let mut bake = match &args.dump_rays {
-        None => bake_watched(scene, &settings, &memory, &NoLog, interrupted)?,
+    let (mut bake, sizes) = match &args.dump_rays {
+        None => bake_watched(scene, &settings, &memory, &NoLog, &mut staging)?,
         Some(file) => {
             let dump = RayDump::new(settings.threads)?;
-            let bake = bake_watched(scene, &settings, &memory, &dump, interrupted)?;
+            let baked = bake_watched(scene, &settings, &memory, &dump, &mut staging)?;
             dump.write(file)?;
-            bake
+            baked
         }
     };
     bake.report.estimated_memory_bytes += memory.resident;
     for warning in &bake.report.warnings {
         eprintln!("warning: {warning}");
     }
-    let written = write::Written { args, document, loaded, bake, hash, start };
+    let written = write::Written { args, document, loaded, bake, sizes, hash, start };
     written.write(staging)
 }
 
@@ -162,18 +165,26 @@ fn keep_source(args: &Args) -> Result<(), CliError> {
     }
 }
 
-/// Bakes on a thread of its own, shows how far it is, and stops when interrupted.
+/// Bakes on a thread of its own, writes the lightmaps as they come, shows how far it is, and stops when interrupted. The
+/// images of the bake may be smaller than those that are written, whose sizes come with it.
 fn bake_watched(
     scene: &Scene,
     settings: &BakeSettings,
     memory: &Budget,
     log: &impl RayLog,
-    interrupted: &AtomicBool,
-) -> Result<Bake, CliError> {
-    let progress = Progress::default();
+    staging: &mut Staging,
+) -> Result<(Bake, Vec<[u32; 2]>), CliError> {
+    let (progress, interrupted) = (Progress::default(), staging.interrupted);
+    let (mut images, mut failure) = (Images::default(), None);
+    let mut take = |index: usize, image: LightmapImage| {
+        images.take(index, image, staging).map_err(|error| {
+            failure = Some(error);
+            Cancelled
+        })
+    };
     let mut display = Display::new();
     let result = thread::scope(|scope| {
-        let worker = scope.spawn(|| bake_logged(scene, settings, &progress, log));
+        let worker = scope.spawn(|| bake_into(scene, settings, &progress, log, &mut take));
         while !worker.is_finished() {
             if interrupted.load(Ordering::Relaxed) {
                 progress.cancel();
@@ -187,8 +198,15 @@ fn bake_watched(
     if interrupted.load(Ordering::Relaxed) {
         return Err(CliError::Cancelled);
     }
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
     match result {
-        Ok(result) => result.map_err(|error| memory.add(error).into()),
+        Ok(result) => {
+            let mut bake = result.map_err(|error| memory.add(error))?;
+            let sizes = images.put_into(&mut bake);
+            Ok((bake, sizes))
+        }
         Err(_) => Err(CliError::new("the bake ended in an error of its own, which is told above; please report it")),
     }
 }

@@ -12,8 +12,9 @@ use radiosity::transport::{Lighting, Relighter, Transport};
 use super::args::{Args, NamedColor};
 use super::error::CliError;
 use super::exr;
+use super::images::exr_name;
 use super::output::Staging;
-use super::write::{TRANSPORT, exr_name};
+use super::write::TRANSPORT;
 use crate::baked::ktx2;
 use crate::baked::manifest::{FILE_NAME, Manifest};
 

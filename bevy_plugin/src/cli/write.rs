@@ -12,13 +12,13 @@ use serde::Serialize;
 use super::args::Args;
 use super::document::Document;
 use super::error::CliError;
+use super::images::exr_name;
 use super::load::Loaded;
 use super::output::Staging;
 use super::preview::Pictures;
 use super::prune::prune;
 use super::report_file::ReportFile;
-use super::{exr, scene_file};
-use crate::baked::ktx2;
+use super::scene_file;
 use crate::baked::manifest::{self, FILE_NAME, LightEntry, Manifest, SurfaceKey};
 
 /// The file of the transport.
@@ -29,19 +29,18 @@ pub(super) struct Written<'a> {
     pub args: &'a Args,
     pub document: Document,
     pub loaded: Loaded,
+    /// With images that may be smaller than those in the files.
     pub bake: Bake,
+    /// Width and height of the lightmaps.
+    pub sizes: Vec<[u32; 2]>,
     pub hash: String,
     pub start: Instant,
 }
 
 impl Written<'_> {
-    /// Writes the files, those last that say what the others are, and says what came out.
+    /// Writes the files beside the lightmaps, those last that say what the others are, and says what came out.
     pub fn write(mut self, mut staging: Staging<'_>) -> Result<String, CliError> {
         let manifest = self.manifest();
-        for (image, entry) in self.bake.images.iter().zip(&manifest.images) {
-            staging.write(&entry.file, &ktx2::encode(image))?;
-            staging.write(&exr_name(&entry.file), &exr::encode(image)?)?;
-        }
         if let Some(transport) = &self.bake.transport {
             staging.write(TRANSPORT, &transport.write())?;
         }
@@ -74,8 +73,9 @@ impl Written<'_> {
             Some(SurfaceKey::Gltf { node, node_name, mesh, primitive })
         };
         let mut manifest = Manifest::new(self.hash.clone(), &self.bake, key);
-        for image in &mut manifest.images {
+        for (image, &size) in manifest.images.iter_mut().zip(&self.sizes) {
             image.exr = Some(exr_name(&image.file));
+            [image.width, image.height] = size;
         }
         manifest.lights = self.loaded.light_nodes.iter().map(|&node| LightEntry::Gltf { node }).collect();
         manifest
@@ -108,8 +108,7 @@ impl Written<'_> {
 
     fn summary(&self, ev100: f32, seconds: f64) -> String {
         let report = &self.bake.report;
-        let images: Vec<String> =
-            self.bake.images.iter().map(|image| format!("{} x {}", image.width, image.height)).collect();
+        let images: Vec<String> = self.sizes.iter().map(|[width, height]| format!("{width} x {height}")).collect();
         format!(
             "{}: {} lightmap(s) of {} texels for {} surfaces, {:.2} texels per meter, EV100 {ev100:.1}, {seconds:.1} s",
             self.args.out.display(),
@@ -119,10 +118,6 @@ impl Written<'_> {
             report.texels_per_meter,
         )
     }
-}
-
-pub(super) fn exr_name(ktx2_name: &str) -> String {
-    format!("{}.exr", ktx2_name.trim_end_matches(".ktx2"))
 }
 
 fn json(value: &impl Serialize) -> Result<Vec<u8>, CliError> {

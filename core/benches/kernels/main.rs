@@ -130,7 +130,7 @@ fn seams(criterion: &mut Criterion) {
     let layout = layout(&scene, &settings(DENSITY).layout, &progress).expect("it can be unwrapped");
     let world = World::new(&scene);
     let tracer = Tracer::new(&world, tree(world.corners[..world.blockers].to_vec()));
-    let mut texels = Texels::new(&world, &layout, &progress).expect("nobody cancels");
+    let mut texels = Texels::new(&world, &layout, 0..layout.images.len(), &progress).expect("nobody cancels");
     let is_valid = check(&mut texels, &tracer, &workers, 1, &progress).expect("nobody cancels");
     let errors = vec![0.01; texels.list.len()];
     let find = || Seams::new(&texels, &is_valid, &errors, &tracer, &workers, &progress).expect("nobody cancels");

@@ -28,17 +28,19 @@ pub(super) struct Repairs {
 }
 
 impl Assembly<'_> {
-    /// The finished images: direct and indirect light together, what is missing filled in; and how it was filled.
+    /// The finished images of the texels that are here: direct and indirect light together, what is missing filled in;
+    /// and how it was filled.
     pub fn images(
         &self,
         direct: &[Vec3A],
         indirect: &[Smooth],
         errors: &[f32],
     ) -> Result<(Vec<LightmapImage>, Vec<Fills>), Cancelled> {
-        let finished = self.workers.map(self.texels.sizes.len(), 1, self.progress, |range| {
+        let first = self.texels.here.start;
+        let finished = self.workers.map(self.texels.here.len(), 1, self.progress, |range| {
             range
                 .map(|index| {
-                    let mut image = self.image(index, direct, indirect, errors);
+                    let mut image = self.image(first + index, direct, indirect, errors);
                     dilate(&mut image, self.progress).map(|fills| (image, fills))
                 })
                 .collect()

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
+use super::EstimatedError;
 use crate::lightmap::{DirectError, Smooth, Texel, Texels};
 use crate::math;
 
@@ -16,9 +17,7 @@ const ROUNDING: f32 = 8.3e-4;
 /// Errors relative to the light at each texel plus a tenth of the mean of all. Lists have one entry for each covered
 /// texel; light is irradiance / pi.
 pub(super) struct Estimate {
-    /// Direct and indirect light, mean over the channels.
-    pub light: Vec<f32>,
-    /// Mean of `light` over the valid texels.
+    /// Mean over the valid texels and the channels of direct and indirect light together.
     pub mean: f32,
     /// Standard error of each valid texel from its rays, zero for others.
     pub errors: Vec<f32>,
@@ -42,7 +41,7 @@ impl Estimate {
         let count = valid().count().max(1) as f64;
         let mean = (valid().map(|index| f64::from(light[index])).sum::<f64>() / count) as f32;
         if mean <= 0.0 {
-            return Self { errors: light.iter().map(|_| 0.0).collect(), light, mean, noise: 0.0, rms: 0.0 };
+            return Self { errors: light.iter().map(|_| 0.0).collect(), mean, noise: 0.0, rms: 0.0 };
         }
         let floor = 0.1 * mean;
         let variance = |index: usize| indirect[index].variance + direct_errors[index].noise;
@@ -59,26 +58,27 @@ impl Estimate {
         let noise = valid().map(|index| f64::from(errors[index] * errors[index])).sum::<f64>() / count;
         let missed = valid().map(missed).sum::<f64>() / count;
         let rms = math::sqrt((noise + missed) as f32 + ROUNDING * ROUNDING);
-        Self { light, mean, errors, noise: math::sqrt(noise as f32), rms }
+        Self { mean, errors, noise: math::sqrt(noise as f32), rms }
     }
+}
 
-    /// What the user should know where the error is larger than wanted.
-    pub fn warning(&self, wanted: f32, texels_per_meter: f32) -> Option<String> {
-        if wanted <= 0.0 || self.rms <= wanted {
-            return None;
-        }
-        let percent = |error: f32| format!("{:.1} %", 100.0 * error);
-        let (rms, wanted_text, noise) = (percent(self.rms), percent(wanted), percent(self.noise));
-        let remedy = if self.noise > wanted {
-            String::from("no texel gets more rays than that; choose a higher quality")
-        } else {
-            format!(
-                "the rest lies between texels, mostly at edges of shadows, where no rays help: bake more than \
-                 {texels_per_meter:.1} texels per meter"
-            )
-        };
-        Some(format!("the estimated error is {rms} instead of {wanted_text}; noise is {noise}: {remedy}"))
+/// What the user should know where the error is larger than wanted.
+pub(super) fn warning(error: &EstimatedError, wanted: f32, texels_per_meter: f32) -> Option<String> {
+    let EstimatedError { rms, noise, .. } = *error;
+    if wanted <= 0.0 || rms <= wanted {
+        return None;
     }
+    let percent = |error: f32| format!("{:.1} %", 100.0 * error);
+    let remedy = if noise > wanted {
+        String::from("no texel gets more rays than that; choose a higher quality")
+    } else {
+        format!(
+            "the rest lies between texels, mostly at edges of shadows, where no rays help: bake more than \
+             {texels_per_meter:.1} texels per meter"
+        )
+    };
+    let [rms, wanted, noise] = [rms, wanted, noise].map(percent);
+    Some(format!("the estimated error is {rms} instead of {wanted}; noise is {noise}: {remedy}"))
 }
 
 /// Mean square error, relative to what is there, of a texel that an edge of a shadow crosses: it holds a mean of a dark
@@ -144,10 +144,10 @@ mod tests {
 
     #[test]
     fn warnings_tell_the_remedy() {
-        let estimate = |noise, rms| Estimate { light: Vec::new(), mean: 1.0, errors: Vec::new(), noise, rms };
-        assert_eq!(estimate(0.01, 0.019).warning(0.02, 8.0), None);
-        assert_eq!(estimate(0.01, 0.1).warning(0.0, 8.0), None);
-        assert!(estimate(0.01, 0.1).warning(0.02, 8.0).is_some_and(|text| text.contains("8.0 texels per meter")));
-        assert!(estimate(0.03, 0.04).warning(0.02, 8.0).is_some_and(|text| text.contains("higher quality")));
+        let says = |noise, rms, wanted| warning(&EstimatedError { rms, noise, bias: 0.0 }, wanted, 8.0);
+        assert_eq!(says(0.01, 0.019, 0.02), None);
+        assert_eq!(says(0.01, 0.1, 0.0), None);
+        assert!(says(0.01, 0.1, 0.02).is_some_and(|text| text.contains("8.0 texels per meter")));
+        assert!(says(0.03, 0.04, 0.02).is_some_and(|text| text.contains("higher quality")));
     }
 }

@@ -2,11 +2,13 @@
 
 mod assemble;
 mod check;
+mod course;
 mod emitters;
 mod error;
 mod estimate;
 mod field;
 mod memory;
+mod parts;
 mod pieces;
 mod rays;
 mod report;
@@ -19,26 +21,26 @@ pub use settings::*;
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::mem;
 
 use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
 use crate::light::Lamps;
 use crate::lightmap::{
-    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Patches, Placement, SeamTexel,
-    Seams, Texels, check as check_texels, filter, layout, seam_texels,
+    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, SeamTexel, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
 use crate::scene::{Scene, World};
 use crate::transport::{LampLight, Lighting, Solution, Surfaces, Tracer, Transport};
-use assemble::{Assembly, Repairs};
+use course::Course;
 use emitters::Lamp;
-use estimate::Estimate;
 use field::Field;
+use memory::{Finished, MemoryPlan};
+use parts::Parts;
 use pieces::Pieces;
 use rays::RayBudget;
-use summary::Done;
 
 /// A finished bake.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,89 +65,100 @@ pub struct Bake {
 /// patches, and rays count the form factors between them; the radiosity equation gives the light of all bounces; each
 /// texel gathers it once.
 ///
+/// Where the texels of all images do not fit into the memory together, the bake goes part by part, a few images at a
+/// time. What lies in another part is seen by its patches then, as if it were far away.
+///
 /// # Errors
 ///
 /// See [`BakeError`]; the text of each says what to do.
 pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Result<Bake, BakeError> {
-    bake_logged(scene, settings, progress, &NoLog)
+    let mut images = Vec::new();
+    let mut collect = |index: usize, image: LightmapImage| {
+        images.push((index, image));
+        Ok(())
+    };
+    let bake = run(scene, settings, Finished::Collected, progress, &NoLog, &mut collect)?;
+    images.sort_by_key(|&(index, _)| index);
+    Ok(Bake { images: images.into_iter().map(|(_, image)| image).collect(), ..bake })
 }
 
-/// Bakes as [`bake`] does and hands every ray to `ray_log`: to trace the same rays elsewhere.
+/// Bakes as [`bake`] does, but hands over each lightmap with its index as soon as it is finished, so that all of them
+/// need not fit into the memory together; and hands every ray to `ray_log`, to trace the same rays elsewhere.
+///
+/// Images come in any order; [`Bake::images`] stays empty. The estimate of the memory leaves room for one image and a
+/// copy of it in another form, and for 4096 x 4096 texels of those before.
 ///
 /// # Errors
 ///
-/// Those of [`bake`].
-pub fn bake_logged(
+/// See [`BakeError`]; where `take` fails the bake is cancelled.
+pub fn bake_into(
     scene: &Scene,
     settings: &BakeSettings,
     progress: &Progress,
     ray_log: &impl RayLog,
+    take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
+) -> Result<Bake, BakeError> {
+    run(scene, settings, Finished::HandedOver, progress, ray_log, take)
+}
+
+fn run(
+    scene: &Scene,
+    settings: &BakeSettings,
+    finished: Finished,
+    progress: &Progress,
+    ray_log: &impl RayLog,
+    take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
 ) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
     let budget = RayBudget::new(settings);
     let mut log = Log::new(progress);
 
     log.enter(Stage::Unwrap);
-    let workers = Workers::new(settings.threads);
-    let layout = laid_out(scene, settings, &workers, progress)?;
-    let needed = memory::check(scene, &layout, &budget, settings)?;
+    let workers = &Workers::new(settings.threads);
+    let layout = laid_out(scene, settings, workers, progress)?;
+    let plan = MemoryPlan::new(scene, &layout, &budget, settings, finished)?;
 
     log.enter(Stage::Geometry);
     let world = World::new(scene);
     let blockers = world.corners[..world.blockers].to_vec();
     let occluders = workers.run_apart(progress, || tree(blockers))?;
-    let tracer = Tracer::new(&world, Logged { occluders, log: ray_log });
-    let mut texels = Texels::new(&world, &layout, progress)?;
+    let tracer = &Tracer::new(&world, Logged { occluders, log: ray_log });
     let seeds = Seeds(settings.seed);
-    let is_valid = check_texels(&mut texels, &tracer, &workers, seeds.of(1), progress)?;
-    let patches = Patches::new(&world, &texels, &is_valid, layout.texels_per_meter, budget.patches);
+    let row_seeds = [seeds.of(1), seeds.of(3)];
+    let mut parts = Parts::new(plan.parts, tracer, &layout, budget.patches, row_seeds, workers, progress)?;
     let (lamps, is_light) = emitters::lamps(&world);
-    let (texels, is_valid, patches, tracer, workers) = (&texels, &is_valid[..], &patches, &tracer, &workers);
-    let pieces = Pieces { tracer, texels, patches, workers, progress, seed: seeds.of(3) };
-    let surfaces = pieces.surfaces(&is_light)?;
-    let baker = Baker { pieces: &pieces, surfaces: &surfaces, is_valid, budget, keep: settings.keep, seeds };
+    let course = Course { lamps: &lamps, is_light: &is_light, lighting: &Lighting::from(scene), settings, budget };
 
     log.enter_after(Stage::Direct, tracer);
-    let lighting = Lighting::from(scene);
-    let DirectLights { sums: direct, errors: direct_errors, kept } = baker.direct(&lamps, &lighting)?;
+    let (light, lit) = course.direct(&mut parts)?;
 
     log.enter_after(Stage::Transport, tracer);
-    let rows = pieces.rows(budget.row, &surfaces)?;
+    let rows = course.rows(&mut parts)?;
 
     log.enter_after(Stage::Solve, tracer);
-    let solution = Solution::new(&surfaces, &rows, &lighting, &direct, Vec::new(), workers, progress)?;
+    let solution = Solution::of_patches(light, &rows, Vec::new(), workers, progress)?;
 
     log.enter_after(Stage::Gather, tracer);
-    let radiance = surfaces.radiance(&lighting, &direct, &solution, workers, progress)?;
-    let nodes = baker.gather(&direct, &radiance)?;
-    let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
-
-    log.enter_after(Stage::Finish, tracer);
-    let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect);
-    let assembly = Assembly { texels, is_valid, patches, workers, progress };
-    let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
-    let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
-    let seam_report = seams.solve(&mut images, workers, progress)?;
-    let seam_texels = seam_texels(&seams, &images);
-    let done = Done { world: &world, texels, is_valid, surfaces: &surfaces, solution: &solution, rows: &rows };
-    let mut done = done.report(&layout, &lighting, &estimate, &nodes, &indirect);
-    done.warnings.extend(estimate.warning(settings.target_error, layout.texels_per_meter));
-    let transport = match settings.keep {
-        Keep::Lightmaps => None,
-        Keep::Transport => Some(assembly.transport(surfaces, kept, rows, nodes, Repairs { fills, seams }, scene)?),
-    };
+    let (mut tally, transport) = course.gather(&mut parts, lit, rows, &solution, &mut log, take)?;
     let report = Report {
-        images: images.len(),
-        texels: images.iter().map(|image| image.texels.len()).sum(),
+        triangles: world.blockers,
+        surfaces: layout.placements.iter().flatten().count(),
+        texels: layout.images.iter().map(|[width, height]| (width * height) as usize).sum(),
+        patches: parts.patches.list.len(),
+        images: layout.images.len(),
+        parts: parts.len(),
+        texels_per_meter: layout.texels_per_meter,
         threads: workers.threads(),
         seed: settings.seed,
-        estimated_memory_bytes: needed,
+        estimated_memory_bytes: plan.needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
-        seams: seam_report,
+        warnings: summary::warnings(&world, &layout, &tally, [parts.patches.list.len(), parts.len()], settings),
+        seams: tally.seams,
         stages: log.finish(tracer),
-        ..done
+        ..tally.report()
     };
-    Ok(Bake { images, uvs: layout.uvs, placements: layout.placements, seams: seam_texels, transport, report })
+    let seams = mem::take(&mut tally.seam_texels);
+    Ok(Bake { images: Vec::new(), uvs: layout.uvs, placements: layout.placements, seams, transport, report })
 }
 
 fn laid_out(
@@ -251,39 +264,61 @@ impl DirectLights {
 struct Seeds(u64);
 
 impl Seeds {
+    /// Those of a part; the first has the seeds of the bake.
+    fn of_part(self, number: usize) -> Self {
+        Self(self.0.wrapping_add((number as u64) << 32))
+    }
+
     fn of(self, purpose: u32) -> u32 {
         hash(hash(self.0 as u32, (self.0 >> 32) as u32), purpose)
     }
 }
 
-/// The stages as they pass.
+/// The stages as they pass; some pass several times.
 struct Log<'a> {
     progress: &'a Progress,
     stages: Vec<StageReport>,
     start: f64,
+    now: usize,
 }
 
 impl<'a> Log<'a> {
     fn new(progress: &'a Progress) -> Self {
-        Self { progress, stages: Vec::new(), start: progress.seconds() }
+        Self { progress, stages: Vec::new(), start: progress.seconds(), now: 0 }
     }
 
     fn enter(&mut self, stage: Stage) {
         self.close(0);
         self.progress.enter(stage);
-        self.stages.push(StageReport { name: stage.name(), ..StageReport::default() });
+        self.open(stage);
     }
 
     fn enter_after<O: Occluders>(&mut self, stage: Stage, tracer: &Tracer<O>) {
         self.close(tracer.take_count());
         self.progress.enter(stage);
-        self.stages.push(StageReport { name: stage.name(), ..StageReport::default() });
+        self.open(stage);
+    }
+
+    /// Counts for another stage from now on, while who watches sees the one that was entered.
+    fn turn_to<O: Occluders>(&mut self, stage: Stage, tracer: &Tracer<O>) {
+        self.close(tracer.take_count());
+        self.open(stage);
+    }
+
+    fn open(&mut self, stage: Stage) {
+        let name = stage.name();
+        let known = self.stages.iter().position(|report| report.name == name);
+        self.now = known.unwrap_or_else(|| {
+            self.stages.push(StageReport { name, ..StageReport::default() });
+            self.stages.len() - 1
+        });
     }
 
     fn close(&mut self, rays: u64) {
         let now = self.progress.seconds();
-        if let Some(last) = self.stages.last_mut() {
-            (last.seconds, last.rays) = (now - self.start, rays);
+        if let Some(report) = self.stages.get_mut(self.now) {
+            report.seconds += now - self.start;
+            report.rays += rays;
         }
         self.start = now;
     }

@@ -3,6 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 use core::f32::consts::PI;
+use core::ops::Range;
 
 use glam::{Vec2, Vec3};
 
@@ -13,16 +14,18 @@ use crate::math;
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::World;
-use crate::transport::{Cells, Codes, Row, Rows, Surfaces, Tracer};
+use crate::transport::{Cells, Codes, Row, Surfaces, Tracer};
 
 /// Points of a patch from which direct light is looked for where it has no texels to average.
 const DIRECT_POINTS: u32 = 16;
 
-/// Texels and patches, and what looks at them.
+/// The texels that are here, all patches, and what looks at them.
 pub(super) struct Pieces<'a, O> {
     pub tracer: &'a Tracer<'a, O>,
     pub texels: &'a Texels,
     pub patches: &'a Patches,
+    /// The patches whose members are here.
+    pub own: Range<usize>,
     pub workers: &'a Workers,
     pub progress: &'a Progress,
     pub seed: u32,
@@ -33,16 +36,15 @@ impl<O: Occluders> Pieces<'_, O> {
         self.tracer.world
     }
 
-    /// Rows of form factors: `rays` from each patch. The sky and the black see nothing.
-    pub fn rows(&self, rays: u32, surfaces: &Surfaces) -> Result<Rows, Cancelled> {
-        let mut rows = self.workers.map(self.patches.list.len(), 32, self.progress, |range| {
-            range.map(|patch| self.row(patch, rays, surfaces)).collect()
-        })?;
-        rows.extend([Row::default(), Row::default()]);
-        Ok(rows.into())
+    /// Rows of form factors: `rays` from each patch whose members are here.
+    pub fn rows(&self, rays: u32) -> Result<Vec<Row>, Cancelled> {
+        self.workers.map(self.own.len(), 32, self.progress, |range| {
+            range.map(|patch| self.row(self.own.start + patch, rays)).collect()
+        })
     }
 
-    fn row(&self, index: usize, rays: u32, surfaces: &Surfaces) -> Row {
+    fn row(&self, index: usize, rays: u32) -> Row {
+        let (sky, black) = (self.patches.list.len() as u32, self.patches.list.len() as u32 + 1);
         let patch = &self.patches.list[index];
         let seed = hash(self.seed, index as u32);
         let sequence = Sobol::new(seed);
@@ -51,10 +53,8 @@ impl<O: Occluders> Pieces<'_, O> {
             let direction = cosine_direction(sequence.square(k), normal);
             let ray = self.tracer.leave(triangle, point, normal, direction, f32::INFINITY);
             match self.tracer.nearest(&ray, hash(seed, k)) {
-                None => surfaces.sky(),
-                Some(hit) => {
-                    self.patches.at(self.tracer, self.texels, &hit).map_or(surfaces.black(), |(patch, _)| patch)
-                }
+                None => sky,
+                Some(hit) => self.patches.at(self.tracer, self.texels, &hit).map_or(black, |(patch, _)| patch),
             }
         };
         let mut ends: Vec<u32> = (0..rays).map(end).collect();
@@ -62,7 +62,7 @@ impl<O: Occluders> Pieces<'_, O> {
         Row::count(&mut ends)
     }
 
-    /// What the surfaces do with light. `is_light` tells which of them are lamps, whose emission counts as direct light.
+    /// What the surfaces do with light: the texels that are here, and their patches. `is_light` tells which of them are lamps, whose emission counts as direct light.
     pub fn surfaces(&self, is_light: &[bool]) -> Result<Surfaces, Cancelled> {
         let black = self.patches.list.len() as u32 + 1;
         let of_texel = &self.patches.of_texel;
@@ -77,8 +77,8 @@ impl<O: Occluders> Pieces<'_, O> {
         };
         Ok(Surfaces {
             areas: self.patches.list.iter().map(|patch| patch.area).collect(),
-            materials: self.patches.list.iter().map(|patch| self.material(patch)).collect(),
-            bare: (0..black - 1).filter(|&patch| self.is_bare(&self.patches.list[patch as usize])).collect(),
+            materials: self.of_own(0, |patch| self.material(patch)),
+            bare: self.own.clone().filter(|&patch| self.is_bare(patch)).map(|patch| patch as u32).collect(),
             patch_of: of_texel.iter().map(|&patch| if patch == NONE { black } else { patch }).collect(),
             texel_areas: (0..of_texel.len()).map(texel_area).collect(),
             reflectance: codes(0),
@@ -104,8 +104,17 @@ impl<O: Occluders> Pieces<'_, O> {
             }
             sums.map(|sum| sum / patch.area)
         };
-        let patches: Vec<[Vec3; 2]> = self.patches.list.iter().map(mean).collect();
-        Ok(texels.iter().chain(&patches).copied().collect())
+        let patches = self.of_own([Vec3::ZERO; 2], mean);
+        Ok(texels.into_iter().chain(patches).collect())
+    }
+
+    /// For each patch whose members are here what `of_patch` says, for others `elsewhere`.
+    fn of_own<T: Copy>(&self, elsewhere: T, of_patch: impl Fn(&Patch) -> T) -> Vec<T> {
+        let mut all = vec![elsewhere; self.patches.list.len()];
+        for patch in self.own.clone() {
+            all[patch] = of_patch(&self.patches.list[patch]);
+        }
+        all
     }
 
     fn detail(&self, hit: &Hit, is_light: &[bool]) -> [Vec3; 2] {
@@ -125,7 +134,8 @@ impl<O: Occluders> Pieces<'_, O> {
     }
 
     /// Whether no texels lie on the side of a patch.
-    fn is_bare(&self, patch: &Patch) -> bool {
+    fn is_bare(&self, patch: usize) -> bool {
+        let patch = &self.patches.list[patch];
         patch.side < 0.0 || matches!(self.patches.sites(patch).next(), Some((Site::Triangle(_), _)))
     }
 

@@ -24,6 +24,8 @@ pub struct Report {
     pub nodes: usize,
     /// Lightmaps.
     pub images: usize,
+    /// Parts that the images were baked in, one after the other, to stay within the memory.
+    pub parts: usize,
     /// Density of the bake.
     pub texels_per_meter: f32,
     /// Threads that worked.

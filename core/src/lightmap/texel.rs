@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use glam::{Vec2, Vec3};
 
@@ -42,13 +43,16 @@ pub struct Texel {
     pub chart: u32,
 }
 
-/// All covered texels of a bake, image by image, block by block.
+/// The covered texels of some images of a bake, image by image, block by block.
 #[derive(Clone, Debug, Default)]
 pub struct Texels {
     /// The covered texels.
     pub list: Vec<Texel>,
-    /// For each image and each of its texels, row by row, the index into `list`, or [`NONE`].
+    /// For each image and each of its texels, row by row, the index into `list`, or [`NONE`]; empty for images whose
+    /// texels are not here.
     pub index: Vec<Vec<u32>>,
+    /// The images whose texels are here.
+    pub here: Range<usize>,
     /// Width and height of each image.
     pub sizes: Vec<[u32; 2]>,
     /// For each triangle of the world its image, or [`NONE`].
@@ -72,18 +76,22 @@ struct Cover {
 }
 
 impl Texels {
-    /// Finds all texels that the receiving surfaces of a world cover, be it ever so little.
+    /// Finds all texels of some images that the receiving surfaces of a world cover, be it ever so little.
     ///
     /// # Errors
     ///
     /// Where the progress was told to cancel.
-    pub fn new(world: &World, layout: &Layout, progress: &Progress) -> Result<Self, Cancelled> {
-        let mut texels = Self { sizes: layout.images.clone(), ..Self::default() };
+    pub fn new(world: &World, layout: &Layout, images: Range<usize>, progress: &Progress) -> Result<Self, Cancelled> {
+        let index = vec![Vec::new(); layout.images.len()];
+        let mut texels = Self { sizes: layout.images.clone(), index, here: images.clone(), ..Self::default() };
         texels.place_triangles(world, layout);
         let charts = first_charts(world, layout);
-        let covers = texels.cover(world, progress)?;
-        for (image, covers) in covers.iter().enumerate() {
-            texels.list_image(image, covers, world, layout, &charts, progress)?;
+        let covers: Vec<Vec<Cover>> =
+            images.clone().map(|image| texels.cover(image, world, progress)).collect::<Result<_, _>>()?;
+        let covered = covers.iter().flatten().filter(|cover| cover.triangle != NONE).count();
+        texels.list.reserve_exact(covered);
+        for (image, covers) in images.zip(covers) {
+            texels.list_image(image, &covers, world, layout, &charts, progress)?;
         }
         texels.mark_quarters(world, progress)?;
         Ok(texels)
@@ -95,25 +103,32 @@ impl Texels {
         self.site(triangle, pixel)
     }
 
-    /// The covered texel that a hit falls on.
+    /// The covered texel that a hit falls on, if it is here.
     #[inline]
     pub fn at(&self, hit: &Hit) -> Option<u32> {
+        let (image, [x, y]) = self.place(hit)?;
+        self.at_pixel(image, x, y)
+    }
+
+    /// The image, column and row that a hit falls on, whether the texels of that image are here or not.
+    #[inline]
+    pub fn place(&self, hit: &Hit) -> Option<(u32, [i32; 2])> {
         let image = self.images[hit.triangle as usize];
         if image == NONE {
             return None;
         }
         let point = hit.interpolate(self.corners[hit.triangle as usize]);
-        self.at_pixel(image, point.x as i32, point.y as i32)
+        Some((image, [point.x as i32, point.y as i32]))
     }
 
-    /// The covered texel at a column and row of an image, which may lie outside.
+    /// The covered texel at a column and row of an image, which may lie outside or not be here.
     #[inline]
     pub fn at_pixel(&self, image: u32, x: i32, y: i32) -> Option<u32> {
         let [width, height] = self.sizes[image as usize];
         if x < 0 || y < 0 || x >= width as i32 || y >= height as i32 {
             return None;
         }
-        let texel = self.index[image as usize][y as usize * width as usize + x as usize];
+        let texel = *self.index[image as usize].get(y as usize * width as usize + x as usize)?;
         (texel != NONE).then_some(texel)
     }
 
@@ -157,22 +172,21 @@ impl Texels {
         }
     }
 
-    /// For each image and texel the triangle that covers it best.
-    fn cover(&self, world: &World, progress: &Progress) -> Result<Vec<Vec<Cover>>, Cancelled> {
-        let nothing = Cover { triangle: NONE, claim: 0.0, area: 0.0 };
-        let mut covers: Vec<Vec<Cover>> =
-            self.sizes.iter().map(|[width, height]| vec![nothing; (width * height) as usize]).collect();
-        for triangle in 0..self.corners.len() as u32 {
+    /// For each texel of an image the triangle that covers it best.
+    fn cover(&self, image: usize, world: &World, progress: &Progress) -> Result<Vec<Cover>, Cancelled> {
+        let [width, height] = self.sizes[image];
+        let mut covers = vec![Cover { triangle: NONE, claim: 0.0, area: 0.0 }; (width * height) as usize];
+        for triangle in self.triangles_in(image..image + 1) {
             progress.check()?;
             let [p, q, r] = world.corners[triangle as usize];
             let [a, b, c] = self.corners[triangle as usize];
             let pixels = 0.5 * (b - a).perp_dot(c - a).abs();
             let stretch = 0.5 * (q - p).cross(r - p).length() / pixels.max(f32::MIN_POSITIVE);
             let least = LEAST_SHARE * pixels.min(1.0);
-            self.for_each_pixel(triangle, |image, x, y, local| {
+            self.for_each_pixel(triangle, |_, x, y, local| {
                 let Some((share, _)) = clip_to_unit_square(local).filter(|(share, _)| *share > least) else { return };
                 let claim = share + if contains(&local, Vec2::splat(0.5)) { 1.0 } else { 0.0 };
-                let cover = &mut covers[image][(y * self.sizes[image][0] + x) as usize];
+                let cover = &mut covers[(y * width + x) as usize];
                 cover.area += share * stretch;
                 if claim > cover.claim {
                     (cover.triangle, cover.claim) = (triangle, claim);
@@ -209,7 +223,7 @@ impl Texels {
                 }
             }
         }
-        self.index.push(index);
+        self.index[image] = index;
         Ok(())
     }
 
@@ -240,7 +254,8 @@ impl Texels {
     }
 
     fn mark_quarters(&mut self, world: &World, progress: &Progress) -> Result<(), Cancelled> {
-        for triangle in 0..self.corners.len() as u32 {
+        let triangles: Vec<u32> = self.triangles_in(self.here.clone()).collect();
+        for triangle in triangles {
             progress.check()?;
             let mut marks = Vec::new();
             self.for_each_pixel(triangle, |image, x, y, local| {
@@ -253,6 +268,12 @@ impl Texels {
             marks.into_iter().for_each(|(texel, bits)| self.list[texel as usize].quarters |= bits);
         }
         Ok(())
+    }
+
+    /// The triangles that lie in some images.
+    fn triangles_in(&self, images: Range<usize>) -> impl Iterator<Item = u32> + '_ {
+        let is_in = move |image: u32| images.contains(&(image as usize));
+        (0..self.images.len() as u32).filter(move |&triangle| is_in(self.images[triangle as usize]))
     }
 
     /// Calls `visit` with image, column, row and the corners of the triangle relative to each texel in its box.

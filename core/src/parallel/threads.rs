@@ -13,6 +13,9 @@ use crate::progress::{Cancelled, Progress};
 /// More threads than this only take memory and time to start.
 const MOST_THREADS: usize = 256;
 
+/// Chunks whose results are there twice, apart and put together.
+const WAVE: usize = 1024;
+
 /// How often a bake that waits looks whether it was cancelled.
 const WAIT: Duration = Duration::from_millis(2);
 
@@ -67,19 +70,19 @@ impl Workers {
         task: impl Fn(Range<usize>) -> Vec<T> + Sync,
     ) -> Result<Vec<T>, Cancelled> {
         let done = AtomicUsize::new(0);
-        let parts: Result<Vec<Vec<T>>, Cancelled> = self.0.install(|| {
-            (0..count.div_ceil(chunk))
-                .into_par_iter()
-                .map(|index| {
-                    progress.advance(done.load(Ordering::Relaxed) as f32 / count as f32)?;
-                    let range = index * chunk..((index + 1) * chunk).min(count);
-                    done.fetch_add(range.len(), Ordering::Relaxed);
-                    Ok(task(range))
-                })
-                .collect()
-        });
+        let one = |index: usize| {
+            progress.advance(done.load(Ordering::Relaxed) as f32 / count as f32)?;
+            let range = index * chunk..((index + 1) * chunk).min(count);
+            done.fetch_add(range.len(), Ordering::Relaxed);
+            Ok(task(range))
+        };
+        let chunks = count.div_ceil(chunk);
         let mut results = Vec::with_capacity(count);
-        parts?.into_iter().for_each(|part| results.extend(part));
+        for first in (0..chunks).step_by(WAVE) {
+            let wave = first..(first + WAVE).min(chunks);
+            let parts: Result<Vec<Vec<T>>, Cancelled> = self.0.install(|| wave.into_par_iter().map(one).collect());
+            parts?.into_iter().for_each(|part| results.extend(part));
+        }
         Ok(results)
     }
 

@@ -104,7 +104,7 @@ impl<'a> Relighter<'a> {
 
     /// (Emitted - absorbed - escaped) / emitted power of the last lighting: 0 when no light is lost or made.
     pub fn energy_balance(&self) -> f32 {
-        self.solution.energy_balance(&self.transport.surfaces, &self.transport.patches)
+        self.solution.energy_balance(self.transport.surfaces.areas.iter().copied(), &self.transport.patches)
     }
 
     /// The lightmaps for a lighting.

@@ -81,21 +81,25 @@ fn push(mut distance: u32, mut count: u32, entries: &mut Vec<u32>) {
 
 impl From<Vec<Row>> for Rows {
     fn from(rows: Vec<Row>) -> Self {
-        let mut all = Self {
-            ends: Vec::with_capacity(rows.len()),
-            entries: Vec::with_capacity(rows.iter().map(|row| row.entries.len()).sum()),
-            totals: Vec::with_capacity(rows.len()),
-        };
-        for Row { entries, total } in rows {
-            all.entries.extend(entries);
-            all.ends.push(all.entries.len() as u64);
-            all.totals.push(total);
-        }
+        let mut all = Self::default();
+        all.append(rows);
         all
     }
 }
 
 impl Rows {
+    /// Puts more rows after these.
+    pub fn append(&mut self, rows: Vec<Row>) {
+        self.ends.reserve_exact(rows.len());
+        self.entries.reserve_exact(rows.iter().map(|row| row.entries.len()).sum());
+        self.totals.reserve_exact(rows.len());
+        for Row { entries, total } in rows {
+            self.entries.extend(entries);
+            self.ends.push(self.entries.len() as u64);
+            self.totals.push(total);
+        }
+    }
+
     /// The number of rows.
     pub fn len(&self) -> usize {
         self.ends.len()

@@ -18,6 +18,40 @@ const TOLERANCE: f32 = 1e-4;
 /// ...which reflectances up to 0.98 reach before, unless rounding hides it: next to a radiance a thousand times as large.
 const MOST_SWEEPS: usize = 300;
 
+/// What patches do with light and what they get straight from the lamps. Lists have an entry for each patch, one for the
+/// sky and one for the black.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PatchLight {
+    /// Direct irradiance / pi.
+    pub direct: Vec<Vec3A>,
+    /// The share of the light that is reflected.
+    pub reflectance: Vec<Vec3A>,
+    /// Emitted radiance in cd/m2.
+    pub emission: Vec<Vec3A>,
+}
+
+impl PatchLight {
+    /// From the direct light of the receivers.
+    pub fn new(surfaces: &Surfaces, lighting: &Lighting, direct: &[Vec3A]) -> Self {
+        Self {
+            direct: surfaces.direct_of_patches(direct),
+            reflectance: surfaces.reflectances(lighting),
+            emission: surfaces.emissions(lighting),
+        }
+    }
+
+    /// Takes over what another one says of a range of patches.
+    pub fn take_in(&mut self, other: &Self, patches: Range<usize>) {
+        for (own, of_other) in [
+            (&mut self.direct, &other.direct),
+            (&mut self.reflectance, &other.reflectance),
+            (&mut self.emission, &other.emission),
+        ] {
+            own[patches.clone()].copy_from_slice(&of_other[patches.clone()]);
+        }
+    }
+}
+
 /// The light of all bounces. Lists have an entry for each patch, one for the sky and one for the black; radiances are
 /// in cd/m2, irradiance is divided by pi.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,8 +83,17 @@ impl Solution {
         workers: &Workers,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
-        let direct = surfaces.direct_of_patches(direct);
-        let (reflectance, emission) = (surfaces.reflectances(lighting), surfaces.emissions(lighting));
+        Self::of_patches(PatchLight::new(surfaces, lighting, direct), rows, start, workers, progress)
+    }
+
+    /// The same from what the patches themselves do and get.
+    pub fn of_patches(
+        PatchLight { direct, reflectance, emission }: PatchLight,
+        rows: &Rows,
+        start: Vec<Vec3A>,
+        workers: &Workers,
+        progress: &Progress,
+    ) -> Result<Self, Cancelled> {
         let light = emission.iter().zip(&reflectance).zip(&direct);
         let exitance: Vec<Vec3A> = light.map(|((emission, rho), direct)| emission + rho * direct).collect();
         let rho = reflectance.iter().copied().fold(Vec3A::ZERO, Vec3A::max);
@@ -75,11 +118,12 @@ impl Solution {
 
     /// (Emitted - absorbed - escaped) / emitted power, by what the rows say. Form factors from rays obey reciprocity
     /// only as far as their noise allows; what they miss shows here.
-    pub fn energy_balance(&self, surfaces: &Surfaces, rows: &Rows) -> f32 {
+    pub fn energy_balance(&self, areas: impl ExactSizeIterator<Item = f32>, rows: &Rows) -> f32 {
         let (mut emitted, mut absorbed) = (0.0_f64, 0.0_f64);
-        let Some(&sky) = self.radiance.get(surfaces.sky() as usize) else { return 0.0 };
-        for (i, &area) in surfaces.areas.iter().enumerate() {
-            let (to_sky, to_black) = (rows.share(i, surfaces.sky()), rows.share(i, surfaces.black()));
+        let Some(&sky) = self.radiance.get(areas.len()) else { return 0.0 };
+        let end = areas.len() as u32;
+        for (i, area) in areas.enumerate() {
+            let (to_sky, to_black) = (rows.share(i, end), rows.share(i, end + 1));
             let from_outside = self.direct[i] + self.emission[i] + sky * to_sky;
             let kept = (self.direct[i] + self.received[i]) * (Vec3A::ONE - self.reflectance[i]);
             let escaped = self.radiance[i] * (to_sky + to_black);

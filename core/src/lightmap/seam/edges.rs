@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::{Vec2, Vec3};
 
-use super::super::{NONE, Texels};
+use super::super::Texels;
 use crate::scene::World;
 
 /// Edges are taken to lie on each other within this share of a texel...
@@ -62,12 +62,11 @@ impl Edge {
     }
 }
 
-/// All edges that no other triangle shares in the lightmap.
+/// All edges that no other triangle shares in the lightmaps whose texels are here.
 pub(super) fn open(world: &World, texels: &Texels) -> Vec<Edge> {
     let mut keys: Vec<([u32; 5], u32)> = Vec::new();
-    for (triangle, corners) in
-        texels.corners.iter().enumerate().filter(|(triangle, _)| texels.images[*triangle] != NONE)
-    {
+    let is_here = |triangle: usize| texels.here.contains(&(texels.images[triangle] as usize));
+    for (triangle, corners) in texels.corners.iter().enumerate().filter(|(triangle, _)| is_here(*triangle)) {
         let bits = corners.map(|corner| corner.to_array().map(f32::to_bits));
         keys.extend((0..3).map(|first| {
             let (a, b) = (bits[first], bits[(first + 1) % 3]);

@@ -50,7 +50,7 @@ pub struct SeamReport {
 }
 
 impl Seams {
-    /// Finds all seams between the texels of a bake.
+    /// Finds all seams between texels.
     ///
     /// Edges belong together where they run along each other in opposite directions, within a twentieth of a texel, where
     /// normals differ by less than 5 degrees, and where nothing stands between the texels of both sides.
@@ -75,7 +75,7 @@ impl Seams {
         numbering.seams(&meetings, workers, progress)
     }
 
-    /// Makes both sides of all seams agree in the images of a bake.
+    /// Makes both sides of all seams agree in the images of those texels.
     ///
     /// # Errors
     ///
@@ -102,10 +102,12 @@ impl Seams {
     }
 }
 
-/// The texels at which seams are seen, with the steps that are left there.
-pub fn seam_texels(seams: &Seams, images: &[LightmapImage]) -> Vec<SeamTexel> {
+/// The texels at which seams are seen, with the steps that are left there; `first` is the number of the first of these
+/// images.
+pub fn seam_texels(seams: &Seams, images: &[LightmapImage], first: usize) -> Vec<SeamTexel> {
     let light = seams.gather(images.iter().map(|image| &image.texels[..]));
-    seams.texel_steps(&light, mean_light(images))
+    let steps = seams.texel_steps(&light, mean_light(images));
+    steps.into_iter().map(|texel| SeamTexel { image: first as u32 + texel.image, ..texel }).collect()
 }
 
 /// The mean of all valid texels and channels.
@@ -161,9 +163,10 @@ impl<O: Occluders> Numbering<'_, O> {
         };
         let points = corners.iter().zip(weights);
         let points = points.map(|(&sides, weight)| SeamPoint { sides: sides.map(sample), weight });
-        let mut texels: Vec<Vec<u32>> = self.texels.sizes.iter().map(|_| Vec::new()).collect();
+        let here = &self.texels.here;
+        let mut texels: Vec<Vec<u32>> = here.clone().map(|_| Vec::new()).collect();
         touched.iter().for_each(|&(image, [x, y])| {
-            texels[image as usize].push(y * self.texels.sizes[image as usize][0] + x);
+            texels[image as usize - here.start].push(y * self.texels.sizes[image as usize][0] + x);
         });
         Ok(Seams {
             texels,

@@ -1,0 +1,173 @@
+//! The passes of a bake over its parts.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::mem;
+
+use glam::Vec3A;
+
+use super::assemble::{Assembly, Repairs};
+use super::emitters::Lamp;
+use super::estimate::Estimate;
+use super::parts::Parts;
+use super::pieces::Pieces;
+use super::rays::RayBudget;
+use super::summary::{Done, Tally};
+use super::{BakeSettings, Baker, DirectLights, Keep, Log, Seeds};
+use crate::geometry::Occluders;
+use crate::lightmap::{DirectError, LightmapImage, Seams, filter, seam_texels};
+use crate::math;
+use crate::progress::{Cancelled, Stage};
+use crate::transport::{Codes, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
+
+/// What all passes have to know.
+pub(super) struct Course<'a> {
+    pub lamps: &'a [Lamp],
+    /// For each surface whether its emission is among the lamps.
+    pub is_light: &'a [bool],
+    pub lighting: &'a Lighting,
+    pub settings: &'a BakeSettings,
+    pub budget: RayBudget,
+}
+
+/// The light of a part that comes straight from the lamps, until it is needed again.
+pub(super) enum Lit {
+    /// Of the only part, with what its surfaces do with light.
+    Only(Box<(Surfaces, DirectLights)>),
+    /// Of the texels of one of several parts.
+    OneOf {
+        /// Irradiance / pi.
+        light: Codes,
+        /// For each texel the roots of [`DirectError::noise`] and [`DirectError::spread`], and [`DirectError::darkest`].
+        errors: Codes,
+    },
+}
+
+impl Course<'_> {
+    /// What patches do with light and get from the lamps, and the direct light of each part.
+    pub fn direct<O: Occluders>(&self, parts: &mut Parts<'_, O>) -> Result<(PatchLight, Vec<Lit>), Cancelled> {
+        let (mut light, mut lit) = (PatchLight::default(), Vec::new());
+        for number in (0..parts.len()).rev() {
+            parts.progress.enter_group(parts.len() - 1 - number, parts.len());
+            parts.turn_to(number)?;
+            let pieces = parts.pieces();
+            let surfaces = pieces.surfaces(self.is_light)?;
+            let baker = self.baker(&pieces, &surfaces, &parts.is_valid, number);
+            let direct = baker.direct(self.lamps, self.lighting)?;
+            let of_part = PatchLight::new(&surfaces, self.lighting, &direct.sums);
+            if lit.is_empty() {
+                light = of_part;
+            } else {
+                light.take_in(&of_part, parts.own());
+            }
+            lit.push(if parts.len() == 1 { Lit::Only(Box::new((surfaces, direct))) } else { Lit::shortened(&direct) });
+        }
+        lit.reverse();
+        Ok((light, lit))
+    }
+
+    /// Rows of form factors between all patches. The sky and the black see nothing.
+    pub fn rows<O: Occluders>(&self, parts: &mut Parts<'_, O>) -> Result<Rows, Cancelled> {
+        let mut rows = Rows::default();
+        for number in 0..parts.len() {
+            parts.progress.enter_group(number, parts.len());
+            parts.turn_to(number)?;
+            rows.append(parts.pieces().rows(self.budget.row)?);
+        }
+        rows.append([Row::default(), Row::default()].into());
+        Ok(rows)
+    }
+
+    /// Gathers, and hands over the finished images.
+    pub fn gather<O: Occluders>(
+        &self,
+        parts: &mut Parts<'_, O>,
+        mut lit: Vec<Lit>,
+        mut rows: Rows,
+        solution: &Solution,
+        log: &mut Log,
+        take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
+    ) -> Result<(Tally, Option<Transport>), Cancelled> {
+        let areas = parts.patches.list.iter().map(|patch| patch.area);
+        let mut tally = Tally::new(&rows, solution.energy_balance(areas, &rows));
+        let mut transport = None;
+        while let Some(of_part) = lit.pop() {
+            let (number, tracer) = (lit.len(), parts.tracer);
+            log.turn_to(Stage::Gather, tracer);
+            parts.progress.enter_group(parts.len() - 1 - number, parts.len());
+            parts.turn_to(number)?;
+            let (pieces, is_valid) = (parts.pieces(), &parts.is_valid[..]);
+            let Pieces { texels, patches, workers, progress, .. } = pieces;
+            let (surfaces, direct) = self.recalled(of_part, &pieces)?;
+            let DirectLights { sums: direct, errors: direct_errors, kept } = direct;
+            let radiance = surfaces.radiance(self.lighting, &direct, solution, workers, progress)?;
+            let nodes = self.baker(&pieces, &surfaces, is_valid, number).gather(&direct, &radiance)?;
+            drop(radiance);
+            let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
+
+            log.turn_to(Stage::Finish, tracer);
+            if number == 0 {
+                progress.enter(Stage::Finish);
+            }
+            let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect);
+            let assembly = Assembly { texels, is_valid, patches, workers, progress };
+            let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
+            let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
+            let seam_report = seams.solve(&mut images, workers, progress)?;
+            let done = Done { world: tracer.world, texels, is_valid, surfaces: &surfaces, solution };
+            let done = done.tally(self.lighting, &estimate, &nodes, &indirect);
+            let seam_texels = seam_texels(&seams, &images, texels.here.start);
+            tally.add(&Tally { seams: seam_report, seam_texels, ..done });
+            for (index, image) in texels.here.clone().zip(images) {
+                take(index, image)?;
+            }
+            if self.settings.keep == Keep::Transport {
+                let (rows, scene) = (mem::take(&mut rows), tracer.world.scene);
+                transport = Some(assembly.transport(surfaces, kept, rows, nodes, Repairs { fills, seams }, scene)?);
+            }
+        }
+        Ok((tally, transport))
+    }
+
+    /// What the surfaces of a part do with light, and the direct light of its texels.
+    fn recalled<O: Occluders>(&self, lit: Lit, pieces: &Pieces<'_, O>) -> Result<(Surfaces, DirectLights), Cancelled> {
+        match lit {
+            Lit::Only(both) => Ok(*both),
+            Lit::OneOf { light, errors } => {
+                let error = |texel| {
+                    let [noise, spread, darkest] = errors.rgb(texel).to_array();
+                    DirectError { noise: noise * noise, spread: spread * spread, darkest }
+                };
+                let direct = DirectLights {
+                    sums: (0..light.len() / 3).map(|texel| light.rgb(texel)).collect(),
+                    errors: (0..errors.len() / 3).map(error).collect(),
+                    kept: Vec::new(),
+                };
+                Ok((pieces.surfaces(self.is_light)?, direct))
+            }
+        }
+    }
+
+    fn baker<'a, O>(
+        &self,
+        pieces: &'a Pieces<'a, O>,
+        surfaces: &'a Surfaces,
+        is_valid: &'a [bool],
+        number: usize,
+    ) -> Baker<'a, O> {
+        let Self { settings, budget, .. } = *self;
+        let seeds = Seeds(settings.seed).of_part(number);
+        Baker { pieces, surfaces, is_valid, budget, keep: settings.keep, seeds }
+    }
+}
+
+impl Lit {
+    /// In few bytes.
+    fn shortened(direct: &DirectLights) -> Self {
+        let texels = direct.errors.len();
+        let light: Vec<f32> = direct.sums[..texels].iter().flat_map(Vec3A::to_array).collect();
+        let numbers = |error: &DirectError| [math::sqrt(error.noise), math::sqrt(error.spread), error.darkest];
+        let errors: Vec<f32> = direct.errors.iter().flat_map(numbers).collect();
+        Self::OneOf { light: Codes::new(&light), errors: Codes::new(&errors) }
+    }
+}
