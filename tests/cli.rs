@@ -83,6 +83,29 @@ fn all_files_are_written_and_fit_together() {
     assert!(preview.read_info().expect("a PNG").info().width > 100);
 }
 
+/// One picture for each question, as large as the preview, and each shows something else.
+#[test]
+fn views_are_pictures_of_the_size_of_the_preview() {
+    let folder = TestFolder::new("views");
+    let out = folder.path().join("out");
+    bake(&folder.write("room.glb", &Glb::room().bytes()), &out, &["--views"]).expect("the room can be baked");
+    let read = |name: &str| {
+        let file = fs::File::open(out.join(name)).expect("the picture is there");
+        let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("it fits")];
+        let info = reader.next_frame(&mut pixels).expect("it is whole");
+        ((info.width, info.height), pixels)
+    };
+    let (size, preview) = read("preview.png");
+    let mut seen = vec![preview];
+    for name in ["density.png", "error.png", "invalid.png", "seams.png"] {
+        let (own, pixels) = read(name);
+        assert_eq!(own, size, "{name}");
+        assert!(!seen.contains(&pixels), "{name} shows nothing of its own");
+        seen.push(pixels);
+    }
+}
+
 /// Every field that others read is there, and the sums are right.
 fn report_is_complete(report: &Value) {
     let numbers = "triangles surfaces texels valid_texels invalid_texels patches nodes images texels_per_meter ev100 \

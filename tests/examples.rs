@@ -1,4 +1,4 @@
-//! The viewer, as built beside this test, takes pictures that show what they are asked for.
+//! The viewer and the gallery, as built beside this test, make the pictures and scenes that they are asked for.
 
 use std::env;
 use std::fs::File;
@@ -6,6 +6,10 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};
 
+use bevy_radiosity::cli::read_scene;
+use radiosity::bake::{BakeSettings, Quality, bake};
+use radiosity::lightmap::{LayoutSettings, LightmapImage, Resolution};
+use radiosity::progress::Progress;
 use radiosity_tests::TestFolder;
 use radiosity_tests::render::Studio;
 
@@ -40,10 +44,14 @@ impl Picture {
 
 /// What it writes to the terminal is shown where the test fails.
 fn viewer(arguments: &[&str]) -> ExitStatus {
+    example("viewer", arguments)
+}
+
+fn example(name: &str, arguments: &[&str]) -> ExitStatus {
     let test = env::current_exe().expect("a test has a path");
     let folder = test.parent().and_then(Path::parent).expect("below the folder of the profile");
-    let program = folder.join("examples").join(format!("viewer{}", env::consts::EXE_SUFFIX));
-    assert!(program.exists(), "{} is not built; run `cargo build --example viewer`", program.display());
+    let program = folder.join("examples").join(format!("{name}{}", env::consts::EXE_SUFFIX));
+    assert!(program.exists(), "{} is not built; run `cargo build --example {name}`", program.display());
     let output = Command::new(program).args(arguments).output().expect("it can be started");
     print!("{}", String::from_utf8_lossy(&output.stderr));
     output.status
@@ -81,5 +89,36 @@ fn viewer_shows_light_and_charts() {
 fn viewer_tells_wrong_arguments() {
     for wrong in [&["--no-such-option"][..], &["--view", "none"], &["--texels-per-meter", "-1"], &["--screenshot"]] {
         assert_eq!(viewer(wrong).code(), Some(2), "{wrong:?}");
+    }
+}
+
+/// Every scene of the gallery is a file that can be baked, with its camera and its lights.
+#[test]
+fn gallery_makes_scenes_that_can_be_baked() {
+    let folder = TestFolder::new("gallery");
+    let status = example("gallery", &["--scenes", folder.path().to_str().expect("it has a name in Unicode")]);
+    assert!(status.success(), "{status}");
+    for (name, density, lights) in [
+        ("cornell", 16.0, 0),
+        ("furnished_room", 1.0, 2),
+        ("thin_walls", 1.0, 7),
+        ("colonnade", 0.5, 1),
+        ("stairwell", 1.0, 0),
+    ] {
+        let path = folder.path().join(name).with_extension("glb");
+        let scene = read_scene(&path).expect("the file is a scene");
+        assert_eq!(scene.lights.len(), lights, "{name}");
+        let triangles: usize = scene.surfaces.iter().map(|surface| scene.meshes[surface.mesh].triangles.len()).sum();
+        assert!((32..40_000).contains(&triangles), "{name}: {triangles} triangles");
+        let layout = LayoutSettings { resolution: Resolution::TexelsPerMeter(density), ..Default::default() };
+        let settings = BakeSettings { layout, quality: Quality::Draft, ..Default::default() };
+        let bake = bake(&scene, &settings, &Progress::default()).expect("it can be baked");
+        assert_eq!(bake.report.surfaces, scene.surfaces.len(), "{name}: {:?}", bake.report.warnings);
+        let light =
+            |image: &LightmapImage| image.texels.iter().all(|texel| texel.is_finite() && texel.min_element() >= 0.0);
+        assert!(bake.images.iter().all(light), "{name}");
+        let bright = bake.images.iter().flat_map(|image| &image.texels).filter(|texel| texel.max_element() > 1.0);
+        assert!(bright.count() > bake.report.valid_texels / 2, "{name} is dark");
+        assert!(bake.report.valid_texels > 4 * bake.report.invalid_texels, "{name}: {:?}", bake.report);
     }
 }

@@ -133,7 +133,7 @@ fn rooms(count: usize) -> (Scene, Vec<LightSource>) {
     let place = |k: usize| (k as f32 + 0.37) / columns as f32 * 12.0;
     let light = |k: usize| {
         let position = Vec3::new(place(k % columns), 2.2 + 0.7 * (k % 7) as f32 / 7.0, place(k / columns));
-        let range = if k % 3 == 0 { 5.0 } else { f32::INFINITY };
+        let range = if k.is_multiple_of(3) { 5.0 } else { f32::INFINITY };
         LightSource::Point(PointLight { position, intensity: Vec3::splat(1.0 + (k % 5) as f32), range, radius: 0.0 })
     };
     (scene, (0..count).map(light).collect())

@@ -1,6 +1,5 @@
 //! Seams: where a surface goes on from one chart or object to the next, its light goes on too, and nothing else changes.
 
-#[expect(dead_code, reason = "each test uses a part of the helpers")]
 mod common;
 
 use common::*;

@@ -1,15 +1,17 @@
-//! What the surfaces show: their light, their color, or how their lightmaps are cut.
+//! What the surfaces show: their light, their color, how their lightmaps are cut, or how good these are.
+
+use std::sync::Arc;
 
 use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::math::Affine2;
 use bevy::mesh::UvChannel;
 use bevy::pbr::Lightmap;
 use bevy::prelude::*;
-use bevy_radiosity::bake::AppliedBake;
+use bevy_radiosity::bake::{AppliedBake, Collected};
 use bevy_radiosity::prelude::*;
 
 use crate::camera::Orbit;
-use crate::false_color;
+use crate::false_color::{self, densities};
 
 /// Shows the view that is chosen, as soon as there is a bake.
 pub fn plugin(app: &mut App) {
@@ -32,15 +34,24 @@ pub enum View {
     Charts,
     /// Each patch in a color of its own.
     Patches,
+    /// Each texel, in the color of how dense they are on its surface.
+    Density,
+    /// The estimated error of each texel.
+    Error,
+    /// The step of light across each seam.
+    Seams,
 }
 
-const VIEWS: [(KeyCode, &str, View); 6] = [
+const VIEWS: [(KeyCode, &str, View); 9] = [
     (KeyCode::Digit1, "lit", View::Lit),
     (KeyCode::Digit2, "lightmap", View::Lightmap),
     (KeyCode::Digit3, "albedo", View::Albedo),
     (KeyCode::Digit4, "texels", View::Texels),
     (KeyCode::Digit5, "charts", View::Charts),
     (KeyCode::Digit6, "patches", View::Patches),
+    (KeyCode::Digit7, "density", View::Density),
+    (KeyCode::Digit8, "error", View::Error),
+    (KeyCode::Digit9, "seams", View::Seams),
 ];
 
 impl View {
@@ -51,9 +62,13 @@ impl View {
     }
 }
 
-/// The material that a surface came with.
+/// The material that a surface came with, and which surface of the bake it is.
 #[derive(Component)]
-struct Own(Handle<StandardMaterial>);
+struct Own(Handle<StandardMaterial>, usize);
+
+/// What is baked.
+#[derive(Resource)]
+struct Source(Arc<Collected>);
 
 fn any_added(surfaces: Query<(), Added<Own>>) -> bool {
     !surfaces.is_empty()
@@ -66,13 +81,14 @@ fn remember(
     surfaces: Query<&MeshMaterial3d<StandardMaterial>>,
     mut materials: ResMut<Assets<StandardMaterial>>,
 ) {
-    for &entity in &started.collected.surfaces {
+    commands.insert_resource(Source(started.collected.clone()));
+    for (index, &entity) in started.collected.surfaces.iter().enumerate() {
         let Ok(MeshMaterial3d(own)) = surfaces.get(entity) else { continue };
         if let Some(mut material) = materials.get_mut(own) {
             // Emission is in cd/m2, as the bake takes it.
             material.emissive_exposure_weight = 1.0;
         }
-        commands.entity(entity).insert(Own(own.clone()));
+        commands.entity(entity).insert(Own(own.clone(), index));
     }
 }
 
@@ -89,6 +105,7 @@ fn show(
     mut surfaces: Query<(&Own, Option<&Lightmap>, &mut MeshMaterial3d<StandardMaterial>)>,
     view: Res<View>,
     applied: Option<Res<AppliedBake>>,
+    source: Option<Res<Source>>,
     mut tonemapping: Single<&mut Tonemapping, With<Orbit>>,
     mut materials: ResMut<Assets<StandardMaterial>>,
     mut images: ResMut<Assets<Image>>,
@@ -96,30 +113,37 @@ fn show(
     let view = if applied.is_some() { *view } else { View::Albedo };
     **tonemapping = match view {
         View::Lit | View::Lightmap => Tonemapping::KhronosPbrNeutral,
-        View::Albedo | View::Texels | View::Charts | View::Patches => Tonemapping::None,
+        _ => Tonemapping::None,
+    };
+    let tints = match (view, &applied, &source) {
+        (View::Density, Some(applied), Some(source)) => densities(&source.0.scene, &applied.bake),
+        _ => Vec::new(),
     };
     let pictures = applied.map_or_else(Vec::new, |applied| pictures(view, &applied, &mut images));
     let picture_of = |lightmap: &Lightmap| {
         let (_, picture) = pictures.iter().find(|(shown, _)| *shown == lightmap.image.id())?;
         Some((picture.clone(), lightmap.uv_rect))
     };
-    for (Own(own), lightmap, mut shown) in &mut surfaces {
+    for (Own(own, index), lightmap, mut shown) in &mut surfaces {
         let Some(before) = materials.get(own).cloned() else { continue };
         shown.0 = match view {
             View::Lit => own.clone(),
             View::Lightmap => materials.add(white(&before)),
             View::Albedo => materials.add(StandardMaterial { unlit: true, ..before }),
-            View::Texels | View::Charts | View::Patches => materials.add(flat(&before, lightmap.and_then(picture_of))),
+            _ => {
+                let tint = tints.get(*index).copied().flatten().unwrap_or(Color::WHITE);
+                materials.add(flat(&before, lightmap.and_then(picture_of), tint))
+            }
         };
     }
 }
 
 /// For each lightmap what the view shows instead, if it does.
 fn pictures(view: View, applied: &AppliedBake, images: &mut Assets<Image>) -> Vec<(AssetId<Image>, Handle<Image>)> {
-    let lightmaps = applied.images.iter().zip(&applied.bake.images);
-    lightmaps
-        .filter_map(|(shown, lightmap)| Some((shown.id(), images.add(false_color::image(view, lightmap)?))))
-        .collect()
+    let picture = |(index, shown): (usize, &Handle<Image>)| {
+        Some((shown.id(), images.add(false_color::image(view, &applied.bake, index)?)))
+    };
+    applied.images.iter().enumerate().filter_map(picture).collect()
 }
 
 /// Reflects all light of the lightmap and nothing else.
@@ -127,13 +151,14 @@ fn white(before: &StandardMaterial) -> StandardMaterial {
     StandardMaterial { reflectance: 0.0, ..sides_of(before) }
 }
 
-/// Shows a picture where the lightmap would be; dark where there is none.
-fn flat(before: &StandardMaterial, picture: Option<(Handle<Image>, Rect)>) -> StandardMaterial {
+/// Shows a picture, times a color, where the lightmap would be; dark where there is none.
+fn flat(before: &StandardMaterial, picture: Option<(Handle<Image>, Rect)>, tint: Color) -> StandardMaterial {
     let Some((picture, rect)) = picture else {
         return StandardMaterial { unlit: true, base_color: Color::srgb(0.05, 0.05, 0.05), ..sides_of(before) };
     };
     StandardMaterial {
         unlit: true,
+        base_color: tint,
         base_color_texture: Some(picture),
         base_color_channel: UvChannel::Uv1,
         uv_transform: Affine2::from_scale_angle_translation(rect.size(), 0.0, rect.min),

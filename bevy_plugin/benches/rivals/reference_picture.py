@@ -28,7 +28,7 @@ TYPES = {5121: np.uint8, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 SUN_RADIUS = math.radians(0.53 / 2)
 # Directions that stand for the disk of the sun.
-SUN_POINTS = 32
+SUN_POINTS = 6
 
 
 class Glb:

@@ -421,7 +421,7 @@ mod tests {
     fn lights(count: u32) -> Vec<DirectLight> {
         let light = |k: u32| {
             let position = 10.0 * random(1, k);
-            let range = if k % 2 == 0 { f32::INFINITY } else { 2.0 + 6.0 * random(2, k).x };
+            let range = if k.is_multiple_of(2) { f32::INFINITY } else { 2.0 + 6.0 * random(2, k).x };
             let point = PointLight { position, intensity: 3.0 * random(3, k), range, radius: 0.0 };
             let outer_angle = 0.1 + 1.4 * random(2, k).y;
             match k % 3 {
@@ -433,7 +433,7 @@ mod tests {
                 _ => {
                     let corners = [5, 6, 7].map(|seed| position + random(seed, k));
                     let emitters = [(corners, 3.0 * random(3, k))];
-                    let mut light = AreaLight::new(emitters.into_iter(), k % 2 == 0);
+                    let mut light = AreaLight::new(emitters.into_iter(), k.is_multiple_of(2));
                     light.range = range;
                     DirectLight::Area(light)
                 }

@@ -12,9 +12,10 @@ const ADVANCE: usize = 4 * POINT;
 const BAR: [usize; 2] = [160, 14];
 const WHITE: [u8; 3] = [255; 3];
 
-/// A color in sRGB for a share of a scale: blue for 0 and less, green in the middle, red for 1 and more.
+/// A color in sRGB for a share of a scale: blue for 0, less, and what is no number, green in the middle, red for 1 and more.
 pub fn heat(share: f32) -> [u8; 3] {
-    let place = share.clamp(0.0, 1.0) * (COLORS.len() - 1) as f32;
+    let share = if share > 0.0 { share.min(1.0) } else { 0.0 };
+    let place = share * (COLORS.len() - 1) as f32;
     let lower = (place as usize).min(COLORS.len() - 2);
     let upper_share = place - lower as f32;
     core::array::from_fn(|k| {
