@@ -255,7 +255,10 @@ impl<O: Occluders> Direct<'_, O> {
         loop {
             self.sample_more(&mut samples, light, index, &sequence, rays, place);
             let (share, noise) = (samples.mean(), samples.variance() * full.error.darkest * full.error.darkest);
-            if rays >= self.rays.most || noise <= tolerated * tolerated {
+            // A sliver of the lamp that hides from all of these rays, or is all that they would have met.
+            let sliver = 0.5 * full.error.darkest / rays as f32;
+            let is_certain = noise.max(sliver * sliver) <= tolerated * tolerated;
+            if rays >= self.rays.most || is_certain {
                 let error = DirectError { noise, spread: 0.0, darkest: full.error.darkest * share };
                 return DirectTexel { irradiance: full.irradiance * share, error };
             }
