@@ -17,7 +17,7 @@ pub fn exhibit() -> Exhibit {
     columns(&mut model);
     wall(&mut model);
     sky(&mut model);
-    model.seen_by("colonnade", camera(vec3(9.2, 1.75, 4.6), vec3(-0.8, 2.25, -1.2), 46.0), 12.2, 12.0)
+    model.seen_by("colonnade", camera(vec3(9.2, 1.75, 4.6), vec3(-0.8, 2.25, -1.2), 46.0), 12.0, 16.0)
 }
 
 fn ground(model: &mut Model) {
@@ -124,5 +124,5 @@ fn sky(model: &mut Model) {
     model.add("sky", blue, Shape::quad(above).turned());
     let end = Shape::wall(vec3(-11.0, 0.0, 9.0), Vec3::NEG_Z, 22.0, 14.0, &[]);
     model.add("haze", haze, end);
-    model.sun(vec3(-0.62, -0.62, -0.5), [38_000.0, 34_000.0, 28_000.0]);
+    model.sun(vec3(-0.27, -0.6, -0.72), [38_000.0, 34_000.0, 28_000.0]);
 }

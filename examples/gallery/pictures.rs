@@ -17,6 +17,9 @@ use crate::model::Exhibit;
 use crate::windowless::{without_window, write};
 
 const HEIGHT: f32 = 540.0;
+/// Pixels that are drawn for one of the picture, in each direction. Samples within a pixel, as `Msaa` has them, would look
+/// lightmaps up outside of the triangle that they show, and so beside its chart.
+const SAMPLES: u32 = 2;
 /// After which everything is seen.
 const FRAMES: usize = 10;
 
@@ -62,7 +65,7 @@ fn go_on(
         exit.write(AppExit::Success);
         return;
     };
-    let size = [(HEIGHT * aspect).round() as u32, HEIGHT as u32];
+    let size = [HEIGHT * aspect, HEIGHT].map(|side| SAMPLES * side.round() as u32);
     let picture = images.add(Image::new_target_texture(size[0], size[1], TextureFormat::Rgba8UnormSrgb, None));
     let baked = assets.load(format!("{name}/manifest.json"));
     let scene = GltfAssetLabel::Scene(0).from_asset(format!("{name}/scene.glb"));
@@ -86,7 +89,7 @@ fn look(
         lens.set_changed();
         let exposure = Exposure { ev100: *ev100 };
         let target = RenderTarget::Image(show.picture.clone().into());
-        commands.entity(camera).insert((target, exposure, Hdr, Tonemapping::KhronosPbrNeutral));
+        commands.entity(camera).insert((target, exposure, Hdr, Msaa::Off, Tonemapping::KhronosPbrNeutral));
     }
 }
 
@@ -126,7 +129,7 @@ fn save(
 ) {
     let Some(Exhibit { name, ev100, .. }) = tour.waiting.pop_front() else { return };
     let path = tour.folder.join(name).with_extension("png");
-    if let Err(error) = write(&captured.image, &path) {
+    if let Err(error) = write(&captured.image, SAMPLES, &path) {
         error!("{} cannot be written: {error}", path.display());
         exit.write(AppExit::error());
         return;

@@ -19,7 +19,7 @@ pub fn exhibit() -> Exhibit {
     partitions(&mut model);
     furniture(&mut model);
     lamps(&mut model);
-    model.seen_by("thin_walls", camera(vec3(5.0, 11.2, 12.2), vec3(5.0, 0.25, 4.15), 35.0), 5.6, 24.0)
+    model.seen_by("thin_walls", camera(vec3(5.0, 11.2, 12.2), vec3(5.0, 0.25, 4.15), 37.0), 6.6, 24.0)
 }
 
 fn shell(model: &mut Model) {

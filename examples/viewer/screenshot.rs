@@ -52,7 +52,7 @@ fn take(
 
 fn save(captured: On<ScreenshotCaptured>, args: Res<Args>, mut exit: MessageWriter<AppExit>) {
     let path = args.screenshot.clone().unwrap_or_default();
-    exit.write(match write(&captured.image, &path) {
+    exit.write(match write(&captured.image, 1, &path) {
         Ok(()) => AppExit::Success,
         Err(error) => {
             error!("{} cannot be written: {error}", path.display());

@@ -20,7 +20,8 @@ pub fn without_window(defaults: PluginGroupBuilder) -> PluginGroupBuilder {
         .add(ScheduleRunnerPlugin::default())
 }
 
-/// Writes a picture in the format that the name of its file tells.
-pub fn write(picture: &Image, path: &Path) -> Result<(), Box<dyn Error>> {
-    Ok(picture.clone().try_into_dynamic()?.to_rgb8().save(path)?)
+/// Writes a picture in the format that the name of its file tells, smaller by this factor.
+pub fn write(picture: &Image, smaller: u32, path: &Path) -> Result<(), Box<dyn Error>> {
+    let size = picture.size() / smaller;
+    Ok(picture.clone().try_into_dynamic()?.thumbnail_exact(size.x, size.y).to_rgb8().save(path)?)
 }

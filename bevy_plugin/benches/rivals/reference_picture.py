@@ -5,156 +5,61 @@
         [--radiance KEPT.npy] [--beside OURS.png OUT.png]
 
 Surfaces are diffuse with their base color; one-sided ones block light from behind and are not seen from there. Lights
-are those of KHR_lights_punctual, the sun with its disk of 0.53 degrees, and emissive materials. Tone mapping is Khronos
+are those of KHR_lights_punctual, the sun with its disc of 0.53 degrees, and emissive materials. Tone mapping is Khronos
 PBR Neutral, as in the pictures of `bake`. `--beside` puts another picture of the same view to the left of this one.
-Where a library of LLVM is not found, name it in DRJIT_LIBLLVM_PATH.
 """
 
 import argparse
-import json
 import math
 import os
-import struct
 import tempfile
+from dataclasses import replace
 
-import mitsuba as mi
 import numpy as np
 from PIL import Image
 
-mi.set_variant("llvm_ad_rgb")
-import drjit as dr  # noqa: E402  (after the variant is set)
+import glb
+from truth import SUN_RADIUS, dr, emitters, mi, shape
 
-TYPES = {5121: np.uint8, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-SUN_RADIUS = math.radians(0.53 / 2)
-# Directions that stand for the disk of the sun.
+# Directions that stand for the disc of the sun.
 SUN_POINTS = 6
 
 
-class Glb:
-    """The JSON and the binary chunk of a file."""
-
-    def __init__(self, path):
-        with open(path, "rb") as file:
-            data = file.read()
-        length = struct.unpack("<I", data[12:16])[0]
-        self.json = json.loads(data[20 : 20 + length])
-        self.binary = data[28 + length :]
-
-    def accessor(self, index):
-        accessor = self.json["accessors"][index]
-        view = self.json["bufferViews"][accessor["bufferView"]]
-        kind, width = np.dtype(TYPES[accessor["componentType"]]), WIDTHS[accessor["type"]]
-        offset = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        stride = view.get("byteStride", kind.itemsize * width)
-        return np.ndarray((accessor["count"], width), kind, self.binary, offset, (stride, kind.itemsize)).copy()
-
-    def nodes(self):
-        """Every node with its transform to the world."""
-        scene = self.json["scenes"][self.json.get("scene", 0)]
-        waiting = [(index, np.eye(4)) for index in scene["nodes"]]
-        while waiting:
-            index, above = waiting.pop()
-            node = self.json["nodes"][index]
-            world = above @ local(node)
-            waiting += [(child, world) for child in node.get("children", [])]
-            yield node, world
-
-
-def local(node):
-    if "matrix" in node:
-        return np.array(node["matrix"], float).reshape(4, 4).T
-    x, y, z, w = node.get("rotation", [0, 0, 0, 1])
-    matrix = np.eye(4)
-    matrix[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    matrix[:3, :3] *= np.array(node.get("scale", [1, 1, 1]))
-    matrix[:3, 3] = node.get("translation", [0, 0, 0])
-    return matrix
-
-
-def rgb(color):
-    return {"type": "rgb", "value": [float(channel) for channel in color]}
-
-
-def surface(glb, primitive, world, folder, name):
-    """A primitive as Mitsuba has it, and whether it is seen from both sides."""
-    attributes = {key: glb.accessor(index) for key, index in primitive["attributes"].items()}
-    positions = attributes["POSITION"] @ world[:3, :3].T + world[:3, 3]
-    faces = glb.accessor(primitive["indices"]).reshape(-1, 3)
-    if np.linalg.det(world[:3, :3]) < 0:
-        faces = faces[:, ::-1]
-    smooth = "NORMAL" in attributes
-    mesh = mi.Mesh(name, len(positions), len(faces), has_vertex_normals=smooth)
-    parameters = mi.traverse(mesh)
-    parameters["vertex_positions"] = positions.astype(np.float32).ravel()
-    parameters["faces"] = faces.astype(np.uint32).ravel()
-    if smooth:
-        normals = attributes["NORMAL"] @ np.linalg.inv(world[:3, :3])
-        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-        parameters["vertex_normals"] = normals.astype(np.float32).ravel()
-    parameters.update()
-    path = os.path.join(folder, f"{name}.ply")
-    mesh.write_ply(path)
-    material = glb.json["materials"][primitive["material"]] if "material" in primitive else {}
-    base = material.get("pbrMetallicRoughness", {})
-    reflectance = np.array(base.get("baseColorFactor", [1, 1, 1, 1])[:3]) * (1 - base.get("metallicFactor", 1))
-    strength = material.get("extensions", {}).get("KHR_materials_emissive_strength", {}).get("emissiveStrength", 1)
-    emission = np.array(material.get("emissiveFactor", [0, 0, 0])) * strength
-    diffuse = {"type": "diffuse", "reflectance": rgb(reflectance)}
-    both = material.get("doubleSided", False)
-    shape = {"type": "ply", "filename": path, "face_normals": not smooth}
-    shape["bsdf"] = {"type": "twosided", "inner": diffuse} if both else diffuse
-    if emission.max() > 0:
-        shape["emitter"] = {"type": "area", "radiance": rgb(emission)}
-    return shape, both
-
-
-def light(description, world):
-    """A light as Mitsuba has it, or several that stand for the disk of the sun."""
-    color = np.array(description.get("color", [1, 1, 1])) * description.get("intensity", 1)
-    place, forward = world[:3, 3], -world[:3, 2] / np.linalg.norm(world[:3, 2])
-    if description["type"] == "point":
-        return [{"type": "point", "position": place.tolist(), "intensity": rgb(color)}]
-    if description["type"] == "spot":
-        cone = description["spot"]
-        target = mi.ScalarTransform4f().look_at(place.tolist(), (place + forward).tolist(), world[:3, 1].tolist())
-        outer, inner = cone.get("outerConeAngle", math.pi / 4), cone.get("innerConeAngle", 0)
-        return [{"type": "spot", "intensity": rgb(color), "to_world": target,
-                 "cutoff_angle": math.degrees(outer), "beam_width": math.degrees(inner)}]
-    side = np.cross(forward, [1, 0, 0] if abs(forward[0]) < 0.9 else [0, 1, 0])
-    side /= np.linalg.norm(side)
-    up = np.cross(side, forward)
-    suns = []
-    for index in range(SUN_POINTS):
-        # Vogel's spiral covers a disk evenly.
-        radius, turn = SUN_RADIUS * math.sqrt((index + 0.5) / SUN_POINTS), index * math.pi * (3 - math.sqrt(5))
-        direction = forward + radius * (math.cos(turn) * side + math.sin(turn) * up)
-        suns.append({"type": "directional", "direction": direction.tolist(), "irradiance": rgb(color / SUN_POINTS)})
-    return suns
+def disc(lamp):
+    """A lamp, or several that stand for the disc of the sun."""
+    if lamp.kind != "directional":
+        return [lamp]
+    side = glb.normalized(np.cross(lamp.direction, np.eye(3)[np.argmin(np.abs(lamp.direction))]))
+    up = np.cross(side, lamp.direction)
+    # Vogel's spiral covers a disc evenly.
+    points = [(SUN_RADIUS * math.sqrt((k + 0.5) / SUN_POINTS), k * math.pi * (3 - math.sqrt(5))) for k in range(SUN_POINTS)]
+    offsets = [radius * (math.cos(turn) * side + math.sin(turn) * up) for radius, turn in points]
+    strength = lamp.strength / SUN_POINTS
+    return [replace(lamp, direction=lamp.direction + offset, strength=strength) for offset in offsets]
 
 
 def load(path):
     """The scene, for each of its shapes whether it is seen from both sides, and its camera."""
-    glb, shapes, sides, lights, camera = Glb(path), {}, [], [], None
+    surfaces, lamps = glb.read(path)
+    lights = [emitter for lamp in lamps for part in disc(lamp) for emitter in emitters(part)]
     with tempfile.TemporaryDirectory() as folder:
-        for node, world in glb.nodes():
-            if "mesh" in node:
-                for primitive in glb.json["meshes"][node["mesh"]]["primitives"]:
-                    name = f"shape{len(shapes):05}"
-                    shapes[name], both = surface(glb, primitive, world, folder, name)
-                    sides.append(both)
-            lamp = node.get("extensions", {}).get("KHR_lights_punctual")
-            if lamp:
-                lights += light(glb.json["extensions"]["KHR_lights_punctual"]["lights"][lamp["light"]], world)
-            if "camera" in node and camera is None:
-                camera = glb.json["cameras"][node["camera"]]["perspective"], world
-        lamps = {f"light{index:05}": lamp for index, lamp in enumerate(lights)}
-        scene = mi.load_dict({"type": "scene", **shapes, **lamps})
-    return scene, sides, camera
+        shapes = {f"m{index:05}": shape(surface, folder, index, True) for index, surface in enumerate(surfaces)}
+        scene = mi.load_dict({"type": "scene", **shapes, **{f"l{index:05}": light for index, light in enumerate(lights)}})
+    return scene, [surface.double_sided for surface in surfaces], camera_of(path)
+
+
+def camera_of(path):
+    """The lens and the place of the first camera."""
+    document, _ = glb.chunks(path)
+    waiting = [(root, np.eye(4)) for root in document["scenes"][document.get("scene", 0)]["nodes"]]
+    while waiting:
+        index, parent = waiting.pop()
+        node = document["nodes"][index]
+        place = parent @ glb.local_place(node)
+        if "camera" in node:
+            return document["cameras"][node["camera"]]["perspective"], place
+        waiting += [(child, place) for child in node.get("children", [])]
+    raise glb.Unsupported("a scene without a camera")
 
 
 def primary_rays(camera, width, height, sampler):
