@@ -11,12 +11,14 @@ use radiosity::progress::Progress;
 use super::memory;
 use super::rooms::rooms;
 
-/// The memory that images of this side may use: 8 GiB for those of 4096 x 4096 texels, and in proportion.
+/// The memory that images of this side may use: 8 GiB for those of 4096 x 4096 texels.
 const LARGEST: u64 = 4096;
 const MEMORY: u64 = 8 << 30;
+/// What smaller ones may use beside their share: it does not shrink with them.
+const FIXED: u64 = 144 << 20;
 const TEXELS_PER_METER: f32 = 64.0;
-/// Of a room with its two blocks, in square meters.
-const ROOM: f32 = 29.0;
+/// What a room with its two blocks takes of the images, in square meters.
+const ROOM: f32 = 34.0;
 
 /// Bakes about sixteen images of this side and hands each over as soon as it is finished.
 pub fn bake_sixteen(side: u32) -> Result<(), Box<dyn Error>> {
@@ -27,7 +29,7 @@ pub fn bake_sixteen(side: u32) -> Result<(), Box<dyn Error>> {
     let settings = BakeSettings {
         layout: LayoutSettings { resolution, max_image_size: side, ..Default::default() },
         quality: Quality::Draft,
-        memory_bytes: MEMORY * u64::from(side) * u64::from(side) / (LARGEST * LARGEST),
+        memory_bytes: FIXED + (MEMORY - FIXED) / (LARGEST * LARGEST / u64::from(side) / u64::from(side)),
         ..Default::default()
     };
     let (before, start) = (memory::start(), Instant::now());
