@@ -97,6 +97,8 @@ fn parts_and_threads_do_not_matter() {
 fn images_are_handed_over() {
     let scene = furnished();
     let settings = in_parts(&scene);
+    // Whoever takes an image may make a copy of it.
+    let settings = BakeSettings { memory_bytes: settings.memory_bytes + (1 << 20), ..settings };
     let collected = baked(&scene, &settings);
     let mut images = vec![None; collected.images.len()];
     let mut take = |index: usize, image| {

@@ -2,11 +2,13 @@
 //! `growth_triangles.svg`, `growth_texels.svg` and `growth_lamps.svg`.
 //!
 //! `growth [--quick | --large] [FOLDER]`: small series, or up to 4096 x 4096 texels; where the pictures go.
+//! `growth --sixteen SIDE` bakes sixteen images of that side instead, in 8 GiB where it is 4096, else in proportion.
 
 mod memory;
 pub mod picture;
 mod rooms;
 pub mod series;
+mod sixteen;
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -16,10 +18,12 @@ use series::{Extent, Series};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let (mut extent, mut folder) = (Extent::Usual, PathBuf::from("."));
-    for argument in env::args().skip(1) {
+    let mut arguments = env::args().skip(1);
+    while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--quick" => extent = Extent::Quick,
             "--large" => extent = Extent::Large,
+            "--sixteen" => return sixteen::bake_sixteen(arguments.next().ok_or("which side?")?.parse()?),
             other if other.starts_with('-') => return Err(format!("unknown option {other}; see the source").into()),
             other => folder = other.into(),
         }

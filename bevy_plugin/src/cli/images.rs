@@ -1,6 +1,6 @@
 //! Finished lightmaps on their way into files, and what is kept of them for pictures.
 
-use radiosity::bake::Bake;
+use radiosity::bake::{Bake, KEPT_TEXELS};
 use radiosity::lightmap::LightmapImage;
 
 use super::error::CliError;
@@ -8,9 +8,6 @@ use super::exr;
 use super::output::Staging;
 use crate::baked::ktx2;
 use crate::baked::manifest;
-
-/// Texels that are kept of all lightmaps together: as many as the estimate of the bake leaves room for.
-const KEPT: usize = 1 << 24;
 
 /// The lightmaps of a bake.
 #[derive(Default)]
@@ -34,7 +31,7 @@ impl Images {
         }
         self.sizes[index] = [image.width, image.height];
         self.kept[index] = (0..self.halvings).fold(image, |image, _| image.halved());
-        while self.kept.iter().map(|image| image.texels.len()).sum::<usize>() > KEPT {
+        while self.kept.iter().map(|image| image.texels.len()).sum::<usize>() > KEPT_TEXELS {
             self.kept.iter_mut().for_each(|image| *image = image.halved());
             self.halvings += 1;
         }

@@ -7,6 +7,7 @@ use core::mem;
 use glam::Vec3A;
 
 use super::assemble::{Assembly, Repairs};
+use super::coarse::Coarse;
 use super::emitters::Lamp;
 use super::estimate::Estimate;
 use super::parts::Parts;
@@ -15,7 +16,7 @@ use super::rays::RayBudget;
 use super::summary::{Done, Tally};
 use super::{BakeSettings, Baker, DirectLights, Keep, Log, Seeds};
 use crate::geometry::Occluders;
-use crate::lightmap::{DirectError, LightmapImage, Seams, filter, seam_texels};
+use crate::lightmap::{DirectError, LightmapImage, Nodes, Seams, filter, seam_texels};
 use crate::math;
 use crate::progress::{Cancelled, Stage};
 use crate::transport::{Codes, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
@@ -39,7 +40,7 @@ pub(super) enum Lit {
         /// Irradiance / pi.
         light: Codes,
         /// For each texel the roots of [`DirectError::noise`] and [`DirectError::spread`], and [`DirectError::darkest`].
-        errors: Codes,
+        errors: Coarse,
     },
 }
 
@@ -51,7 +52,10 @@ impl Course<'_> {
             parts.progress.enter_group(parts.len() - 1 - number, parts.len());
             parts.turn_to(number)?;
             let pieces = parts.pieces();
-            let surfaces = pieces.surfaces(self.is_light)?;
+            let mut surfaces = pieces.surfaces(self.is_light)?;
+            if parts.len() > 1 {
+                surfaces.forget_neighbors();
+            }
             let baker = self.baker(&pieces, &surfaces, &parts.is_valid, number);
             let direct = baker.direct(self.lamps, self.lighting)?;
             let of_part = PatchLight::new(&surfaces, self.lighting, &direct.sums);
@@ -98,12 +102,20 @@ impl Course<'_> {
             parts.turn_to(number)?;
             let (pieces, is_valid) = (parts.pieces(), &parts.is_valid[..]);
             let Pieces { texels, patches, workers, progress, .. } = pieces;
-            let (surfaces, direct) = self.recalled(of_part, &pieces)?;
+            let (mut surfaces, direct) = self.recalled(of_part, &pieces)?;
             let DirectLights { sums: direct, errors: direct_errors, kept } = direct;
             let radiance = surfaces.radiance(self.lighting, &direct, solution, workers, progress)?;
-            let nodes = self.baker(&pieces, &surfaces, is_valid, number).gather(&direct, &radiance)?;
+            tally.lowered += surfaces.count_lowered(self.lighting);
+            if self.settings.keep == Keep::Lightmaps {
+                surfaces.forget_materials();
+            }
+            let mut nodes = self.baker(&pieces, &surfaces, is_valid, number).gather(&direct, &radiance)?;
             drop(radiance);
             let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
+            tally.nodes += nodes.gathered.iter().filter(|node| node.rays > 0).count();
+            if self.settings.keep == Keep::Lightmaps {
+                nodes = Nodes::default();
+            }
 
             log.turn_to(Stage::Finish, tracer);
             if number == 0 {
@@ -115,7 +127,7 @@ impl Course<'_> {
             let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
             let seam_report = seams.solve(&mut images, workers, progress)?;
             let done = Done { world: tracer.world, texels, is_valid, surfaces: &surfaces, solution };
-            let done = done.tally(self.lighting, &estimate, &nodes, &indirect);
+            let done = done.tally(&estimate, &indirect);
             let seam_texels = seam_texels(&seams, &images, texels.here.start);
             tally.add(&Tally { seams: seam_report, seam_texels, ..done });
             for (index, image) in texels.here.clone().zip(images) {
@@ -135,12 +147,12 @@ impl Course<'_> {
             Lit::Only(both) => Ok(*both),
             Lit::OneOf { light, errors } => {
                 let error = |texel| {
-                    let [noise, spread, darkest] = errors.rgb(texel).to_array();
+                    let [noise, spread, darkest] = errors.three(texel);
                     DirectError { noise: noise * noise, spread: spread * spread, darkest }
                 };
                 let direct = DirectLights {
                     sums: (0..light.len() / 3).map(|texel| light.rgb(texel)).collect(),
-                    errors: (0..errors.len() / 3).map(error).collect(),
+                    errors: (0..light.len() / 3).map(error).collect(),
                     kept: Vec::new(),
                 };
                 Ok((pieces.surfaces(self.is_light)?, direct))
@@ -165,9 +177,8 @@ impl Lit {
     /// In few bytes.
     fn shortened(direct: &DirectLights) -> Self {
         let texels = direct.errors.len();
-        let light: Vec<f32> = direct.sums[..texels].iter().flat_map(Vec3A::to_array).collect();
-        let numbers = |error: &DirectError| [math::sqrt(error.noise), math::sqrt(error.spread), error.darkest];
-        let errors: Vec<f32> = direct.errors.iter().flat_map(numbers).collect();
-        Self::OneOf { light: Codes::new(&light), errors: Codes::new(&errors) }
+        let light = direct.sums[..texels].iter().flat_map(Vec3A::to_array);
+        let three = |error: &DirectError| [math::sqrt(error.noise), math::sqrt(error.spread), error.darkest];
+        Self::OneOf { light: Codes::new(light), errors: Coarse::new(direct.errors.iter().flat_map(three)) }
     }
 }

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod check;
+mod coarse;
 mod course;
 mod emitters;
 mod error;
@@ -16,6 +17,7 @@ mod settings;
 mod summary;
 
 pub use error::*;
+pub use memory::KEPT_TEXELS;
 pub use report::*;
 pub use settings::*;
 
@@ -86,7 +88,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
 /// need not fit into the memory together; and hands every ray to `ray_log`, to trace the same rays elsewhere.
 ///
 /// Images come in any order; [`Bake::images`] stays empty. The estimate of the memory leaves room for one image and a
-/// copy of it in another form, and for 4096 x 4096 texels of those before.
+/// copy of it in another form, and for [`KEPT_TEXELS`] of those before.
 ///
 /// # Errors
 ///
@@ -125,7 +127,8 @@ fn run(
     let tracer = &Tracer::new(&world, Logged { occluders, log: ray_log });
     let seeds = Seeds(settings.seed);
     let row_seeds = [seeds.of(1), seeds.of(3)];
-    let mut parts = Parts::new(plan.parts, tracer, &layout, budget.patches, row_seeds, workers, progress)?;
+    let cell = plan.cell as usize;
+    let mut parts = Parts::new((plan.parts, plan.cell), tracer, &layout, budget.patches, row_seeds, workers, progress)?;
     let (lamps, is_light) = emitters::lamps(&world);
     let course = Course { lamps: &lamps, is_light: &is_light, lighting: &Lighting::from(scene), settings, budget };
 
@@ -152,7 +155,7 @@ fn run(
         seed: settings.seed,
         estimated_memory_bytes: plan.needed,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
-        warnings: summary::warnings(&world, &layout, &tally, [parts.patches.list.len(), parts.len()], settings),
+        warnings: summary::warnings(&world, &layout, &tally, [parts.patches.list.len(), parts.len(), cell], settings),
         seams: tally.seams,
         stages: log.finish(tracer),
         ..tally.report()

@@ -20,6 +20,8 @@ pub(super) struct Parts<'a, O> {
     pub seed: u32,
     /// The images of each part.
     images: Vec<Range<usize>>,
+    /// Texels along the side of the widest patches.
+    cell: u32,
     records: Vec<Record>,
     /// The part that is here.
     number: usize,
@@ -60,7 +62,7 @@ impl<'a, O: Occluders> Parts<'a, O> {
     /// Makes the texels of all parts, finds out which are valid, and cuts all surfaces into at least `wanted` patches;
     /// the last part is here then.
     pub fn new(
-        images: Vec<Range<usize>>,
+        (images, cell): (Vec<Range<usize>>, u32),
         tracer: &'a Tracer<'a, O>,
         layout: &'a Layout,
         wanted: usize,
@@ -72,7 +74,7 @@ impl<'a, O: Occluders> Parts<'a, O> {
         let [seed_of_check, seed] = seeds;
         let (number, texels, is_valid, records) = Default::default();
         let mut parts =
-            Self { tracer, layout, workers, progress, seed, images, records, number, texels, is_valid, patches };
+            Self { tracer, layout, workers, progress, seed, images, cell, records, number, texels, is_valid, patches };
         for number in 0..parts.len() {
             progress.enter_group(number, parts.len());
             parts.add(number, wanted, seed_of_check)?;
@@ -123,7 +125,7 @@ impl<'a, O: Occluders> Parts<'a, O> {
         let before = if self.len() > 1 { self.texels.list.clone() } else { Vec::new() };
         self.is_valid = check(&mut self.texels, self.tracer, self.workers, seed, self.progress)?;
         let wanted = self.share_of(wanted, images);
-        let patches = self.patches.add_texels(world, &self.texels, &self.is_valid, wanted);
+        let patches = self.patches.add_texels(world, &self.texels, &self.is_valid, self.cell, wanted);
         self.records.push(match self.len() {
             1 => Record { patches, ..Record::default() },
             _ => Record::new(patches, &before, &self.texels, &self.is_valid),

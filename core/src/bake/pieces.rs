@@ -68,21 +68,20 @@ impl<O: Occluders> Pieces<'_, O> {
         let of_texel = &self.patches.of_texel;
         let texel_area = |texel: usize| if of_texel[texel] == NONE { 0.0 } else { self.texels.list[texel].area };
         let details = self.details(is_light)?;
+        let codes = |which: usize| Codes::new(details.iter().flat_map(move |detail| detail[which].to_array()));
+        let [reflectance, emission] = [codes(0), codes(1)];
+        drop(details);
         let around: Vec<Row> = self
             .workers
             .map(of_texel.len(), 4096, self.progress, |range| range.map(|texel| self.around(texel)).collect())?;
-        let codes = |which: usize| {
-            let numbers: Vec<f32> = details.iter().flat_map(|detail| detail[which].to_array()).collect();
-            Codes::new(&numbers)
-        };
         Ok(Surfaces {
             areas: self.patches.list.iter().map(|patch| patch.area).collect(),
             materials: self.of_own(0, |patch| self.material(patch)),
             bare: self.own.clone().filter(|&patch| self.is_bare(patch)).map(|patch| patch as u32).collect(),
             patch_of: of_texel.iter().map(|&patch| if patch == NONE { black } else { patch }).collect(),
             texel_areas: (0..of_texel.len()).map(texel_area).collect(),
-            reflectance: codes(0),
-            emission: codes(1),
+            reflectance,
+            emission,
             cells: [self.cells(4), self.cells(2)],
             around: around.into(),
         })
@@ -105,7 +104,9 @@ impl<O: Occluders> Pieces<'_, O> {
             sums.map(|sum| sum / patch.area)
         };
         let patches = self.of_own([Vec3::ZERO; 2], mean);
-        Ok(texels.into_iter().chain(patches).collect())
+        let mut all = texels;
+        all.extend(patches);
+        Ok(all)
     }
 
     /// For each patch whose members are here what `of_patch` says, for others `elsewhere`.

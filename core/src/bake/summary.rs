@@ -9,10 +9,10 @@ use glam::Vec3A;
 
 use super::estimate::{Estimate, warning};
 use super::{BakeSettings, EstimatedError, Report};
-use crate::lightmap::{Layout, Nodes, SeamReport, SeamTexel, Smooth, Texels};
+use crate::lightmap::{Layout, SeamReport, SeamTexel, Smooth, Texels};
 use crate::math;
 use crate::scene::World;
-use crate::transport::{LARGEST_REFLECTANCE, Lighting, Rows, Solution, Surfaces};
+use crate::transport::{LARGEST_REFLECTANCE, Rows, Solution, Surfaces};
 
 /// Most surfaces that a warning names.
 const NAMED: usize = 8;
@@ -70,8 +70,6 @@ impl Tally {
         };
         self.valid_texels += part.valid_texels;
         self.invalid_texels += part.invalid_texels;
-        self.nodes += part.nodes;
-        self.lowered += part.lowered;
         self.hidden.extend(&part.hidden);
         self.seam_texels.extend(&part.seam_texels);
         self.light += part.light;
@@ -102,14 +100,12 @@ fn mean_root(roots: [f32; 2], share: f32) -> f32 {
 }
 
 impl Done<'_> {
-    /// What this part says.
-    pub fn tally(&self, lighting: &Lighting, estimate: &Estimate, nodes: &Nodes, indirect: &[Smooth]) -> Tally {
+    /// What this part says, beside its nodes and its patches.
+    pub fn tally(&self, estimate: &Estimate, indirect: &[Smooth]) -> Tally {
         let valid_texels = self.valid().count();
         Tally {
             valid_texels,
             invalid_texels: self.is_valid.len() - valid_texels,
-            nodes: nodes.gathered.iter().filter(|node| node.rays > 0).count(),
-            lowered: self.surfaces.count_lowered(lighting),
             hidden: self.hidden(),
             light: valid_texels as f64 * f64::from(estimate.mean),
             error: EstimatedError {
@@ -161,7 +157,7 @@ pub(super) fn warnings(
     world: &World,
     layout: &Layout,
     tally: &Tally,
-    [patches, parts]: [usize; 2],
+    [patches, parts, cell]: [usize; 3],
     settings: &BakeSettings,
 ) -> Vec<String> {
     let mut warnings = layout.warnings.clone();
@@ -185,7 +181,7 @@ pub(super) fn warnings(
     warnings.extend(warning(&tally.error, settings.target_error, layout.texels_per_meter));
     if parts > 1 {
         warnings.push(format!(
-            "the images did not fit into the memory together and were baked in {parts} parts: where surfaces in different parts lie close together, their light on each other is as coarse as patches of 8 x 8 texels, and seams between them remain; allow more memory to bake them at once"
+            "the images did not fit into the memory together and were baked in {parts} parts: where surfaces in different parts lie close together, their light on each other is as coarse as patches of {cell} x {cell} texels, and seams between them remain; allow more memory to bake them at once"
         ));
     }
     warnings

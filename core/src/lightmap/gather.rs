@@ -106,6 +106,9 @@ pub struct Gather<'a, O, C> {
     pub seed: u32,
 }
 
+/// Texels that gather before what they saw is put to its place.
+const BATCH: usize = 1 << 18;
+
 /// Texels along the side of a tile that shares a sequence.
 const TILE: u32 = 8;
 
@@ -130,13 +133,16 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
         progress: &Progress,
     ) -> Result<(), Cancelled> {
         let seed = hash(self.seed, round);
-        let found = workers.map(wanted.len(), 16, progress, |range| {
-            wanted[range].iter().map(|&(texel, rays)| self.node(texel, rays, seed)).collect()
-        })?;
-        for ((texel, _), (more, row)) in wanted.into_iter().zip(found) {
-            nodes.gathered[texel].merge(&more);
-            if let Some(kept) = nodes.rows.get_mut(texel) {
-                *kept = kept.merge(&row);
+        for (number, batch) in wanted.chunks(BATCH).enumerate() {
+            progress.enter_part(number, wanted.len().div_ceil(BATCH));
+            let found = workers.map(batch.len(), 16, progress, |range| {
+                batch[range].iter().map(|&(texel, rays)| self.node(texel, rays, seed)).collect()
+            })?;
+            for (&(texel, _), (more, row)) in batch.iter().zip(found) {
+                nodes.gathered[texel].merge(&more);
+                if let Some(kept) = nodes.rows.get_mut(texel) {
+                    *kept = kept.merge(&row);
+                }
             }
         }
         Ok(())

@@ -85,11 +85,18 @@ impl Patches {
         }
     }
 
-    /// Cuts the texels that are here into cells of at most 8 x 8, smaller where that gives fewer than `wanted` patches;
-    /// returns the new patches.
-    pub fn add_texels(&mut self, world: &World, texels: &Texels, is_valid: &[bool], wanted: usize) -> Range<usize> {
+    /// Cuts the texels that are here into cells of at most `widest` x `widest`, smaller where that gives fewer than
+    /// `wanted` patches; returns the new patches.
+    pub fn add_texels(
+        &mut self,
+        world: &World,
+        texels: &Texels,
+        is_valid: &[bool],
+        widest: u32,
+        wanted: usize,
+    ) -> Range<usize> {
         let first = self.list.len();
-        self.cell = BLOCK;
+        self.cell = widest;
         let mut cells = cells(texels, is_valid, self.cell);
         while self.cell > 1 && count_groups(&cells) < wanted {
             self.cell /= 2;
@@ -295,6 +302,9 @@ fn cells(texels: &Texels, is_valid: &[bool], cell: u32) -> Vec<(u64, u32)> {
     keys
 }
 
+/// The number that the last parts of a cell share.
+const MOST_PARTS: u32 = 63;
+
 /// Gives the parts of a cell that walls part keys of their own: the lowest six bits number them.
 fn part(texels: &Texels, cell: &mut [(u64, u32)]) {
     if cell.iter().all(|&(_, texel)| texels.links.is_clear(texel, 0)) {
@@ -308,7 +318,7 @@ fn part(texels: &Texels, cell: &mut [(u64, u32)]) {
     };
     let pairs: Vec<[u32; 2]> = (0..cell.len()).flat_map(|place| [(place, 0), (place, 1)]).filter_map(ahead).collect();
     let parts = groups(cell.len(), &pairs);
-    cell.iter_mut().zip(parts).for_each(|((key, _), part)| *key |= u64::from(part));
+    cell.iter_mut().zip(parts).for_each(|((key, _), part)| *key |= u64::from(part.min(MOST_PARTS)));
     cell.sort_unstable();
 }
 

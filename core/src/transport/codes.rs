@@ -21,10 +21,10 @@ pub struct Codes {
 
 impl Codes {
     /// Codes for numbers that are not negative.
-    pub fn new(numbers: &[f32]) -> Self {
-        let largest = numbers.iter().copied().fold(0.0, f32::max);
+    pub fn new(numbers: impl Iterator<Item = f32> + Clone) -> Self {
+        let largest = numbers.clone().fold(0.0, f32::max);
         let scale = 1.0 / largest.max(f32::MIN_POSITIVE);
-        Self { largest, codes: numbers.iter().map(|&number| encode(number * scale)).collect() }
+        Self { largest, codes: numbers.map(|number| encode(number * scale)).collect() }
     }
 
     /// The number of numbers.
@@ -69,11 +69,11 @@ mod tests {
     #[test]
     fn codes_are_close() {
         let numbers: Vec<f32> = (0..600).map(|k| 1e9 / (1.0 + k as f32).powi(3)).chain([0.0]).collect();
-        let codes = Codes::new(&numbers);
+        let codes = Codes::new(numbers.iter().copied());
         assert_eq!((codes.get(0), codes.get(600)), (1e9, 0.0));
         for (k, number) in numbers.iter().enumerate() {
             assert!((codes.get(k) - number).abs() <= number / 4096.0, "{number}");
         }
-        assert_eq!(Codes::new(&[0.0, 0.0]).get(1), 0.0);
+        assert_eq!(Codes::new([0.0, 0.0].into_iter()).get(1), 0.0);
     }
 }

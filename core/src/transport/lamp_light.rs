@@ -53,7 +53,7 @@ impl LampLight {
             numbers.push(light);
             end = receiver + 1;
         }
-        Self { origin, color, runs, light: Codes::new(&numbers) }
+        Self { origin, color, runs, light: Codes::new(numbers.iter().copied()) }
     }
 
     /// Adds irradiance / pi to `sums`, which belong to a range of receivers.

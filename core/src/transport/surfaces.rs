@@ -100,6 +100,17 @@ impl Surfaces {
         self.first(size) + index
     }
 
+    /// Forgets what only tells radiances from lights, and is not asked for again where nothing is kept.
+    pub fn forget_materials(&mut self) {
+        (self.reflectance, self.emission, self.texel_areas) = Default::default();
+        self.forget_neighbors();
+    }
+
+    /// Forgets between which patches texels interpolate.
+    pub fn forget_neighbors(&mut self) {
+        self.around = Rows::default();
+    }
+
     /// Whether all that is named exists: what a file must show.
     pub(super) fn is_sound(&self, materials: usize) -> bool {
         let (patches, texels) = (self.areas.len(), self.patch_of.len());
