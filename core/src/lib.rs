@@ -60,7 +60,7 @@
 //! | none | `math`, `spectrum`, `geometry`, `spline`, `composite`, `form_factor`, `solve`, uniform `patch`es, on slices: neither heap nor operating system |
 //! | `alloc` | all other modules |
 //! | `std` | the clock and the float functions of the system |
-//! | `bvh`, `parallel`, `unwrap` | the tree of obvhs, the threads of rayon, coordinates for meshes that have none |
+//! | `bvh`, `parallel`, `unwrap` | the tree that obvhs builds, the threads of rayon, coordinates for meshes that have none |
 //! | `bake` (default) | the three above |
 //! | `libm` | the same bits on every target |
 #![no_std]

@@ -71,11 +71,10 @@ impl Wall {
                 add_quad(scene, "wall of the bright room", quad(x), 0);
                 add_quad(scene, "wall of the dark room", reversed(quad(x)), 0);
             }
-            Self::Solid { thickness, gap } => {
+            Self::Solid { thickness, .. } => {
                 let [start, end] = self.span(x);
                 add_box(scene, "bright wall", [start, low[0], low[1]], [start + thickness, high[0], high[1]], 0, false);
                 add_box(scene, "dark wall", [end - thickness, low[0], low[1]], [end, high[0], high[1]], 0, false);
-                let _ = gap;
             }
         }
     }

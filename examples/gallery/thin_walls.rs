@@ -3,7 +3,7 @@
 
 use bevy::math::{Affine3A, Vec2, Vec3, vec2, vec3};
 
-use crate::model::{Exhibit, Model, camera};
+use crate::model::{Exhibit, Model, Paint, camera};
 use crate::shape::Shape;
 use crate::spline::lathe;
 
@@ -82,12 +82,31 @@ fn partitions(model: &mut Model) {
     }
 }
 
+/// What furniture is painted with.
+struct Paints {
+    wood: Paint,
+    cloth: Paint,
+    linen: Paint,
+    red: Paint,
+    white: Paint,
+}
+
 fn furniture(model: &mut Model) {
-    let wood = model.paint("wood", [0.42, 0.27, 0.15]);
-    let cloth = model.paint("cloth", [0.3, 0.36, 0.5]);
-    let linen = model.paint("bed linen", [0.72, 0.69, 0.63]);
-    let red = model.paint("red cloth", [0.55, 0.14, 0.1]);
-    let white = model.paint("enamel", [0.8, 0.8, 0.8]);
+    let paints = Paints {
+        wood: model.paint("wood", [0.42, 0.27, 0.15]),
+        cloth: model.paint("cloth", [0.3, 0.36, 0.5]),
+        linen: model.paint("bed linen", [0.72, 0.69, 0.63]),
+        red: model.paint("red cloth", [0.55, 0.14, 0.1]),
+        white: model.paint("enamel", [0.8, 0.8, 0.8]),
+    };
+    bedrooms(model, &paints);
+    living_room(model, &paints);
+    stools(model, &paints);
+    bathroom(model, &paints);
+    storage(model, &paints);
+}
+
+fn bedrooms(model: &mut Model, &Paints { wood, linen, .. }: &Paints) {
     let bed = |x: f32, z: f32| {
         Shape::joined([
             Shape::cuboid([x, 0.12, z], [x + 1.5, 0.3, z + 2.05]),
@@ -108,6 +127,9 @@ fn furniture(model: &mut Model) {
             Shape::cuboid([6.0, 0.0, 0.6], [6.58, 2.1, 2.2]),
         ]),
     );
+}
+
+fn living_room(model: &mut Model, &Paints { wood, cloth, red, .. }: &Paints) {
     let table = |low: [f32; 2], high: [f32; 2], y: f32| {
         let legs =
             [(low[0], low[1]), (high[0] - 0.05, low[1]), (low[0], high[1] - 0.05), (high[0] - 0.05, high[1] - 0.05)];
@@ -126,6 +148,9 @@ fn furniture(model: &mut Model) {
     ];
     model.add("sofa", cloth, Shape::joined(sofa));
     model.add("rug", red, Shape::cuboid([5.6, 0.0, 5.6], [7.2, 0.01, 7.1]));
+}
+
+fn stools(model: &mut Model, &Paints { red, .. }: &Paints) {
     let stools = [(8.1, 5.2), (9.0, 5.2), (8.1, 6.8), (9.0, 6.8), (8.7, 1.2)];
     let stool: [&[[f32; 2]]; 4] = [
         &[[0.0, 0.0], [0.13, 0.0]],
@@ -135,6 +160,9 @@ fn furniture(model: &mut Model) {
     ];
     let stools = stools.map(|(x, z)| Affine3A::from_translation(vec3(x, 0.0, z)));
     model.add_all("stool", red, lathe(Vec3::ZERO, &stool, [5, 6]), &stools);
+}
+
+fn bathroom(model: &mut Model, &Paints { white, .. }: &Paints) {
     let basin: [&[[f32; 2]]; 4] = [
         &[[0.0, 0.0], [0.1, 0.0]],
         &[[0.1, 0.0], [0.06, 0.3], [0.1, 0.7], [0.26, 0.74], [0.27, 0.85]],
@@ -150,6 +178,9 @@ fn furniture(model: &mut Model) {
         Shape::cuboid([1.74, 0.1, 7.26], [1.8, 0.58, 7.92]),
     ];
     model.add("bath tub", white, Shape::joined(tub));
+}
+
+fn storage(model: &mut Model, &Paints { wood, .. }: &Paints) {
     model.add(
         "boxes",
         wood,

@@ -45,7 +45,7 @@ impl RayDump {
 impl RayLog for RayDump {
     fn record(&self, ray: &Ray, kind: RayKind) {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.seen / TILE % EVERY == 0 {
+        if (kept.seen / TILE).is_multiple_of(EVERY) {
             let kind = if kind == RayKind::Closest { 0.0 } else { 1.0 };
             let numbers = ray.origin.to_array().into_iter().chain(ray.direction.to_array()).chain([ray.end, kind]);
             kept.bytes.extend(numbers.flat_map(f32::to_le_bytes));

@@ -84,7 +84,7 @@ impl From<Quality> for RayBudget {
                     most_rays: 128,
                     spacing: 0.25,
                     contrast: 0.15,
-                    enough: Enough::Error(0.08),
+                    enough: Enough::Error(0.05),
                 },
             },
             Quality::Medium => Self {
@@ -98,7 +98,7 @@ impl From<Quality> for RayBudget {
                     most_rays: 1024,
                     spacing: 0.12,
                     contrast: 0.08,
-                    enough: Enough::Error(0.03),
+                    enough: Enough::Error(0.02),
                 },
             },
             Quality::High => Self {
@@ -112,7 +112,7 @@ impl From<Quality> for RayBudget {
                     most_rays: 4096,
                     spacing: 0.06,
                     contrast: 0.04,
-                    enough: Enough::Error(0.015),
+                    enough: Enough::Error(0.01),
                 },
             },
         }

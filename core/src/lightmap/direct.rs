@@ -328,14 +328,15 @@ impl<O: Occluders> Direct<'_, O> {
         }
     }
 
-    /// The weight of a ray to a point of a lamp, and as much of it as arrives.
+    /// The weight of a ray to a point of a lamp, and as much of it as arrives. Where normals are smooth the point lies
+    /// above its triangle, and light may come from below the plane of that.
     fn sample(&self, light: &DirectLight, index: u32, sequence: &Sobol, k: u32, from: Vec3) -> [f32; 2] {
         let texel = &self.texels.list[index as usize];
         let flat = self.tracer.world.normals[texel.triangle as usize];
         let ray = light.shadow_ray(sequence.square(k), from, texel.normal);
         let weight = ray.weight.max(0.0);
-        if weight <= 0.0 || ray.direction.dot(flat) <= 0.0 {
-            return [weight, 0.0];
+        if weight <= 0.0 {
+            return [0.0; 2];
         }
         self.tracer.count(1);
         [weight, weight * self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray))]

@@ -87,17 +87,18 @@ pub fn stencil(
         return visit(index, 1.0);
     }
     let reach = (math::ceil(2.0 * sigma) as i32).min(REACH);
-    let weight = |x: i32, y: i32| {
+    // Neither of two texels mixes far into what the other sees near.
+    let width = |x: i32, y: i32| {
         let other = neighbor(texel, texels, is_valid, x, y).filter(|_| texels.is_connected(index as u32, x, y))?;
-        // Neither mixes far into what the other sees near.
-        let narrow = sigma.min(sigma * gathered[other].distance / own.distance.max(1e-9)).max(0.2);
-        Some((other, math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow))))
+        Some((other, sigma.min(sigma * gathered[other].distance / own.distance.max(1e-9)).max(0.2)))
     };
     // What lies opposite counts as much: one that looks to one side only is wrong wherever light changes.
     for y in 0..=reach {
         for x in if y == 0 { 1 } else { -reach }..=reach {
-            let (Some((one, share)), Some((other, opposite))) = (weight(x, y), weight(-x, -y)) else { continue };
-            [one, other].into_iter().for_each(|texel| visit(texel, share.min(opposite)));
+            let (Some((one, width)), Some((other, opposite))) = (width(x, y), width(-x, -y)) else { continue };
+            let narrow = width.min(opposite);
+            let weight = math::exp(-((x * x + y * y) as f32) / (2.0 * narrow * narrow));
+            [one, other].into_iter().for_each(|texel| visit(texel, weight));
         }
     }
     visit(index, 1.0);

@@ -26,13 +26,14 @@ pub struct LightmapImage {
 
 impl LightmapImage {
     /// The same picture with half as many texels in each direction, for a look at it: each is the mean of those of four
-    /// that know most of their light.
+    /// that know most of their light. A side of one texel stays.
     pub fn halved(&self) -> Self {
-        let (width, height) = (self.width / 2, self.height / 2);
+        let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
+        let (right, down) = ((self.width > 1) as usize, if self.height > 1 { self.width as usize } else { 0 });
         let mut half = Self { width, height, ..Self::default() };
         for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
             let corner = (2 * y * self.width + 2 * x) as usize;
-            let four = [0, 1, self.width as usize, self.width as usize + 1].map(|step| corner + step);
+            let four = [0, right, down, right + down].map(|step| corner + step);
             let rank = |&at: &usize| match self.states[at] {
                 TexelState::Empty => 0,
                 TexelState::Gutter => 1,

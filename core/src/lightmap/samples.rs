@@ -8,7 +8,8 @@ use glam::Vec2;
 use crate::math;
 
 /// Variance of a net over that of a grid with one point in each cell, where an edge cuts the square: nets are stratified
-/// in strips too. Measured over edges of all directions for 4 to 256 points: between 0.27 and 1; an edge parallel to a side has less than a tenth of what is claimed.
+/// in strips too. Measured over edges of all directions for 4 to 256 points: between 0.27 and 1; an edge parallel to a
+/// side has less than a tenth of what is claimed.
 const NET: f32 = 0.5;
 
 /// Samples at points of the unit square of which a power of two fills a grid, one in each cell: a `(0, m, 2)` net.
