@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use radiosity::patch::{self, Element, Patch, uniform};
-use radiosity::spline::{BezierError, BezierSurface};
+use radiosity::spline::{SplineError, BezierSurface};
 
 pub type Shape<'a> = patch::Shape<'a, DVec3, DVec3>;
 
@@ -46,7 +46,7 @@ impl Surface {
 }
 
 impl Room {
-    pub fn new() -> Result<Self, BezierError> {
+    pub fn new() -> Result<Self, SplineError> {
         let mut room = Self { surfaces: Vec::new() };
         let [low, x, y, z] = [DVec3::new(-1.3, 0.0, -1.0), DVec3::X * 2.6, DVec3::Y * 2.0, DVec3::Z * 2.0];
         room.add([low, z, x], WHITE, DVec3::ZERO, 0);

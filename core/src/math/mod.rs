@@ -1,13 +1,15 @@
 //! Float functions: those of std, or those of libm where the bits must be the same on every target.
 //!
 //! The functions here are those of `f32`. What has to be exact is generic over [`Real`], `f32` or `f64`, and over
-//! [`Vector`], glam's `Vec3` or `DVec3`.
+//! [`Vector`], glam's `Vec3`, `Vec3A` or `DVec3`; what has no directions, over any [`VectorSpace`].
 
 mod real;
+mod space;
 mod vector;
 
 pub use real::*;
 pub use single::*;
+pub use space::*;
 pub use vector::*;
 
 #[cfg(any(feature = "libm", not(feature = "std")))]

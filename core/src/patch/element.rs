@@ -1,10 +1,10 @@
 //! A flat piece of a patch that has one radiosity.
 
 use super::Patch;
-use crate::math::{Real, Vector};
+use crate::math::{Real, Vector, VectorSpace};
 
 /// A place in the domain of a patch.
-pub type Parameters<V> = [<V as Vector>::Scalar; 2];
+pub type Parameters<V> = [<V as VectorSpace>::Scalar; 2];
 
 /// A convex planar polygon of three or four corners, counter-clockwise seen from the front.
 ///

@@ -1,22 +1,15 @@
 //! Bezier curves: de Casteljau's construction.
 
-use core::fmt;
+use super::bernstein::{PASCAL, bernstein_sum};
+use super::control_point::{check_degree, check_points};
+use super::{ControlPoint, Curve, Homogeneous, Jet, SplineError};
+use crate::math::{Real, VectorSpace};
 
-use crate::math::{Real, Vector};
-
-/// The highest degree of a [`Bezier`]; [`de_casteljau`] itself knows no limit.
+/// The highest degree of a curve; [`de_casteljau`] and [`bernstein`](super::bernstein()) themselves know no limit.
 pub const MAX_DEGREE: usize = 15;
 
-/// A point of a curve, with its first and second derivative by the parameter.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Jet<V> {
-    /// Position.
-    pub point: V,
-    /// The tangent, as long as the speed.
-    pub first: V,
-    /// The second derivative.
-    pub second: V,
-}
+/// As many points as the highest degree has.
+pub(super) const MAX_ORDER: usize = MAX_DEGREE + 1;
 
 /// Evaluates the Bezier curve of these control points at `t`, and overwrites them.
 ///
@@ -24,7 +17,7 @@ pub struct Jet<V> {
 /// curve between the first and the last point, any other number on its continuation. `n` rounds of linear
 /// interpolation; the last three points that are left give the derivatives. De Casteljau 1959; Farin, "Curves and
 /// Surfaces for CAGD", section 4.
-pub fn de_casteljau<V: Vector>(points: &mut [V], t: V::Scalar) -> Jet<V> {
+pub fn de_casteljau<V: VectorSpace>(points: &mut [V], t: V::Scalar) -> Jet<V> {
     let degree = points.len().saturating_sub(1);
     let n = V::Scalar::from_usize(degree);
     let mut jet = Jet::default();
@@ -35,92 +28,118 @@ pub fn de_casteljau<V: Vector>(points: &mut [V], t: V::Scalar) -> Jet<V> {
             (1, [a, ..]) => jet.point = *a,
             _ => {}
         }
-        (1..count).for_each(|i| points[i - 1] = points[i - 1] * (V::Scalar::ONE - t) + points[i] * t);
+        construct(&mut points[..count], t);
     }
     jet
 }
 
+/// One round of de Casteljau's construction: each point but the last moves towards the next one.
+#[inline]
+pub(super) fn construct<V: VectorSpace>(points: &mut [V], t: V::Scalar) {
+    (1..points.len()).for_each(|i| points[i - 1] = points[i - 1] * (V::Scalar::ONE - t) + points[i] * t);
+}
+
 /// A Bezier curve on borrowed control points, of degree 0 to [`MAX_DEGREE`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bezier<'a, V>(&'a [V]);
+pub struct Bezier<'a, P>(&'a [P]);
 
-/// Why control points make no curve or surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BezierError {
-    /// There is no point.
-    Empty,
-    /// The degree is above [`MAX_DEGREE`].
-    Degree {
-        /// The degree asked for.
-        degree: usize,
-    },
-    /// A point has a coordinate that is infinite or no number.
-    NotFinite {
-        /// Of the point.
-        index: usize,
-    },
-    /// The points of a surface do not fill its rows.
-    Ragged {
-        /// Number of points.
-        points: usize,
-        /// Number of points in a row.
-        columns: usize,
-    },
-}
+/// A Bezier curve with weights: quotients of polynomials, among them all conics.
+pub type RationalBezier<'a, V> = Bezier<'a, Homogeneous<V>>;
 
-impl fmt::Display for BezierError {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Self::Empty => write!(f, "there are no control points; give at least one"),
-            Self::Degree { degree } => {
-                write!(f, "the degree is {degree}, the highest is {MAX_DEGREE}; cut the curve into pieces")
-            }
-            Self::NotFinite { index } => write!(f, "control point {index} is not finite; give finite coordinates"),
-            Self::Ragged { points, columns } => {
-                write!(f, "{points} control points are no rows of {columns}; give whole rows")
-            }
-        }
-    }
-}
-
-impl core::error::Error for BezierError {}
-
-impl<'a, V: Vector> Bezier<'a, V> {
+impl<'a, P: ControlPoint> Bezier<'a, P> {
     /// A curve from the first point to the last one, which the others pull.
     ///
     /// # Errors
     ///
-    /// Where there is no point or one too many, or a coordinate is not finite.
-    pub fn new(points: &'a [V]) -> Result<Self, BezierError> {
+    /// Where there is no point or one too many, a coordinate is not finite, or a weight is not positive.
+    pub fn new(points: &'a [P]) -> Result<Self, SplineError> {
         check_degree(points.len())?;
-        check_finite(points)?;
+        check_points(points)?;
         Ok(Self(points))
     }
 
+    /// Points that were checked before, or computed from such.
+    pub(super) fn trusted(points: &'a [P]) -> Self {
+        Self(points)
+    }
+
+    /// The control points.
+    pub fn points(&self) -> &'a [P] {
+        self.0
+    }
+
+    /// The highest power of the parameter.
+    pub fn degree(&self) -> usize {
+        self.0.len() - 1
+    }
+
+    /// The point at `t` in `[0, 1]`, in as many steps as there are control points.
+    ///
+    /// Other parameters lie on the continuation of the curve, where rounding errors grow with the distance.
+    #[inline]
+    pub fn point(&self, t: P::Scalar) -> P::Point {
+        bernstein_sum(self.0, t).project()
+    }
+
     /// The point at `t` in `[0, 1]` with its derivatives.
-    pub fn at(&self, t: V::Scalar) -> Jet<V> {
-        let mut scratch = [V::default(); MAX_DEGREE + 1];
-        let scratch = &mut scratch[..self.0.len()];
-        scratch.copy_from_slice(self.0);
-        de_casteljau(scratch, t)
+    ///
+    /// The three points of the last but two rounds of de Casteljau's construction, each from its own sum, so that the
+    /// number of steps stays proportional to the degree.
+    pub fn at(&self, t: P::Scalar) -> Jet<P::Point> {
+        let n = P::Scalar::from_usize(self.degree());
+        P::project_jet(match *self.0 {
+            [] => Jet::default(),
+            [a] => Jet { point: a, ..Jet::default() },
+            [a, b] => Jet { point: bernstein_sum(&[a, b], t), first: b - a, second: P::default() },
+            [_, _, ref inner @ ..] => {
+                let [a, b, c] = [0, 1, 2].map(|i| bernstein_sum(&self.0[i..i + inner.len()], t));
+                let (ab, bc) = (b - a, c - b);
+                Jet {
+                    point: bernstein_sum(&[a, b, c], t),
+                    first: bernstein_sum(&[ab, bc], t) * n,
+                    second: (bc - ab) * (n * (n - P::Scalar::ONE)),
+                }
+            }
+        })
+    }
+
+    /// Writes the derivatives of order 0, 1, 2 ... at `t` to `derivatives`, up to order [`MAX_DEGREE`]; zero above.
+    ///
+    /// The derivative of order `k` is `n! / (n - k)!` times the difference of order `k` of the points of de Casteljau's
+    /// round `n - k`. Farin, section 5.3.
+    pub fn derivatives(&self, t: P::Scalar, derivatives: &mut [P::Point]) {
+        let (mut scratch, mut homogeneous) = ([P::default(); MAX_ORDER], [P::default(); MAX_ORDER]);
+        let degree = self.degree();
+        scratch[..=degree].copy_from_slice(self.0);
+        for k in (0..=degree).rev() {
+            let factor = (degree - k + 1..=degree).fold(1.0, |product, i| product * i as f64);
+            let signed = |i: usize| if (k - i).is_multiple_of(2) { factor } else { -factor } * PASCAL[k][i];
+            homogeneous[k] = weighted(&scratch[..=k], |i| P::Scalar::from_f64(signed(i)));
+            construct(&mut scratch[..=k], t);
+        }
+        derivatives.iter_mut().for_each(|derivative| *derivative = P::Point::default());
+        P::project_derivatives(&homogeneous, derivatives);
     }
 }
 
-/// Whether as many points make a curve.
-pub(super) fn check_degree(count: usize) -> Result<(), BezierError> {
-    match count {
-        0 => Err(BezierError::Empty),
-        _ if count > MAX_DEGREE + 1 => Err(BezierError::Degree { degree: count - 1 }),
-        _ => Ok(()),
-    }
+/// The sum of points times factors.
+pub(super) fn weighted<V: VectorSpace>(points: &[V], factor: impl Fn(usize) -> V::Scalar) -> V {
+    points.iter().enumerate().fold(V::default(), |sum, (i, &point)| sum + point * factor(i))
 }
 
-/// Whether all coordinates are finite.
-pub(super) fn check_finite<V: Vector>(points: &[V]) -> Result<(), BezierError> {
-    let is_finite = |point: &V| point.to_array().iter().all(|x| x.abs() < V::Scalar::INFINITY);
-    match points.iter().position(|point| !is_finite(point)) {
-        Some(index) => Err(BezierError::NotFinite { index }),
-        None => Ok(()),
+impl<P: ControlPoint> Curve for Bezier<'_, P> {
+    type Point = P::Point;
+
+    fn domain(&self) -> [P::Scalar; 2] {
+        [P::Scalar::ZERO, P::Scalar::ONE]
+    }
+    #[inline]
+    fn at(&self, t: P::Scalar) -> Jet<P::Point> {
+        self.at(t)
+    }
+    #[inline]
+    fn point(&self, t: P::Scalar) -> P::Point {
+        self.point(t)
     }
 }
 
@@ -207,9 +226,9 @@ mod tests {
 
     #[test]
     fn errors_name_the_point() {
-        assert_eq!(Bezier::<Vec3>::new(&[]), Err(BezierError::Empty));
-        assert_eq!(Bezier::new(&[Vec3::ZERO; 17]), Err(BezierError::Degree { degree: 16 }));
-        assert_eq!(Bezier::new(&[Vec3::ZERO, Vec3::NAN]), Err(BezierError::NotFinite { index: 1 }));
+        assert_eq!(Bezier::<Vec3>::new(&[]), Err(SplineError::Empty));
+        assert_eq!(Bezier::new(&[Vec3::ZERO; 17]), Err(SplineError::Degree { degree: 16 }));
+        assert_eq!(Bezier::new(&[Vec3::ZERO, Vec3::NAN]), Err(SplineError::NotFinite { index: 1 }));
         assert_eq!(de_casteljau::<Vec3>(&mut [], 0.5), Jet::default());
     }
 }

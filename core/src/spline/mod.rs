@@ -1,7 +1,46 @@
-//! Curves and surfaces from control points: Bezier curves of any degree and their tensor products.
+//! Curves and surfaces from control points.
+//!
+//! [`Bezier`] curves have one polynomial, [`BSpline`] curves have pieces of polynomials that join at knots. Their control
+//! points are numbers, vectors of any dimension, or [`Homogeneous`] points, which make a curve rational: a
+//! [`RationalBezier`] or a [`Nurbs`] curve. [`Hermite`] splines go through points, with tangents of all kinds. All are a
+//! [`Curve`], and what is measured along a curve works for each. They borrow their points and need no heap.
 
+mod arc_length;
+mod basis;
+mod bernstein;
 mod bezier;
+mod bspline;
+mod conic;
+mod control_point;
+mod cubic;
+mod curve;
+mod elevation;
+mod error;
+mod frame;
+mod hermite;
+mod homogeneous;
+mod implicit;
+mod insertion;
+mod knots;
+mod nearest;
+mod roots;
+mod split;
 mod surface;
 
+pub use arc_length::*;
+pub use bernstein::*;
 pub use bezier::*;
+pub use bspline::*;
+pub use conic::*;
+pub use control_point::*;
+pub use cubic::*;
+pub use curve::*;
+pub use error::*;
+pub use frame::*;
+pub use hermite::*;
+pub use homogeneous::*;
+pub use insertion::*;
+pub use knots::*;
+pub use nearest::*;
+pub use roots::*;
 pub use surface::*;

@@ -1,7 +1,7 @@
 //! Bezier surfaces: curves of curves.
 
-use super::bezier::{check_degree, check_finite};
-use super::{BezierError, Jet, MAX_DEGREE, de_casteljau};
+use super::control_point::{check_degree, check_finite};
+use super::{Jet, MAX_DEGREE, SplineError, de_casteljau};
 use crate::math::{Real, Vector};
 
 /// A tensor product Bezier surface on borrowed control points; `u` runs along the rows and `v` from row to row.
@@ -36,11 +36,11 @@ impl<'a, V: Vector> BezierSurface<'a, V> {
     /// # Errors
     ///
     /// Where the points do not fill rows of `columns`, a degree is above [`MAX_DEGREE`], or a coordinate is not finite.
-    pub fn new(points: &'a [V], columns: usize) -> Result<Self, BezierError> {
+    pub fn new(points: &'a [V], columns: usize) -> Result<Self, SplineError> {
         check_degree(points.len().min(1))?;
         check_degree(columns)?;
         if !points.len().is_multiple_of(columns) {
-            return Err(BezierError::Ragged { points: points.len(), columns });
+            return Err(SplineError::Ragged { points: points.len(), columns });
         }
         check_degree(points.len() / columns)?;
         check_finite(points)?;
@@ -186,10 +186,10 @@ mod tests {
 
     #[test]
     fn errors_name_the_points() {
-        assert_eq!(BezierSurface::<Vec3>::new(&[], 2), Err(BezierError::Empty));
-        assert_eq!(BezierSurface::new(&[Vec3::ZERO; 4], 0), Err(BezierError::Empty));
-        assert_eq!(BezierSurface::new(&[Vec3::ZERO; 5], 2), Err(BezierError::Ragged { points: 5, columns: 2 }));
-        assert_eq!(BezierSurface::new(&[Vec3::ZERO; 34], 2), Err(BezierError::Degree { degree: 16 }));
-        assert_eq!(BezierSurface::new(&[Vec3::INFINITY; 4], 2), Err(BezierError::NotFinite { index: 0 }));
+        assert_eq!(BezierSurface::<Vec3>::new(&[], 2), Err(SplineError::Empty));
+        assert_eq!(BezierSurface::new(&[Vec3::ZERO; 4], 0), Err(SplineError::Empty));
+        assert_eq!(BezierSurface::new(&[Vec3::ZERO; 5], 2), Err(SplineError::Ragged { points: 5, columns: 2 }));
+        assert_eq!(BezierSurface::new(&[Vec3::ZERO; 34], 2), Err(SplineError::Degree { degree: 16 }));
+        assert_eq!(BezierSurface::new(&[Vec3::INFINITY; 4], 2), Err(SplineError::NotFinite { index: 0 }));
     }
 }

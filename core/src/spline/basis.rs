@@ -1,0 +1,83 @@
+//! The basis functions of B-splines: the recursion of Cox and de Boor.
+
+use super::KnotVector;
+use super::bezier::MAX_ORDER;
+use crate::math::Real;
+
+impl<R: Real> KnotVector<'_, R> {
+    /// The basis functions of a span at `t`: entry `i` is that of control point `span - degree + i`, for
+    /// `i <= degree`.
+    ///
+    /// They sum to 1; for `t` in the span none is negative. "The NURBS Book", algorithm A2.2. `span` comes from
+    /// [`span`](Self::span).
+    #[inline]
+    pub fn basis(&self, span: usize, t: R) -> [R; MAX_ORDER] {
+        cox_de_boor(self.around(span), self.degree(), t)
+    }
+
+    /// The derivatives of order 0, 1, 2 ... of the basis functions of a span at `t`, as many as there are rows.
+    ///
+    /// The derivative of order `k` is found from the basis functions of degree `p - k`, whose sum it is: the formula
+    /// of "The NURBS Book", equation 2.7, `k` times. The results are those of algorithm A2.3.
+    pub fn basis_derivatives(&self, span: usize, t: R, rows: &mut [[R; MAX_ORDER]]) {
+        let window = self.around(span);
+        for (k, row) in rows.iter_mut().enumerate() {
+            *row = cox_de_boor_derivative(window, self.degree(), k, t);
+        }
+    }
+}
+
+/// The values of the basis functions of degree `degree` between the two middle knots of a window of `2 degree` knots.
+///
+/// `N` is larger than the degree.
+#[inline(always)]
+pub(super) fn cox_de_boor<R: Real, const N: usize>(window: &[R], degree: usize, t: R) -> [R; N] {
+    let mut values = [R::ZERO; N];
+    values[0] = R::ONE;
+    raise(window, degree, degree, t, &mut values);
+    values
+}
+
+/// Their derivatives of order `k`.
+#[inline(always)]
+pub(super) fn cox_de_boor_derivative<R: Real, const N: usize>(window: &[R], degree: usize, k: usize, t: R) -> [R; N] {
+    let mut values = [R::ZERO; N];
+    if k > degree {
+        return values;
+    }
+    values[0] = R::ONE;
+    raise(window, degree, degree - k, t, &mut values);
+    (degree - k + 1..=degree).for_each(|j| differentiate(window, degree, j, &mut values));
+    values
+}
+
+/// From the basis functions of degree 0 to those of degree `to`.
+///
+/// `N_i^j = (t - u_i) / (u_(i+j) - u_i) N_i^(j-1) + (u_(i+j+1) - t) / (u_(i+j+1) - u_(i+1)) N_(i+1)^(j-1)`
+#[inline(always)]
+fn raise<R: Real>(window: &[R], degree: usize, to: usize, t: R, values: &mut [R]) {
+    for j in 1..=to {
+        let mut saved = R::ZERO;
+        for r in 0..j {
+            let (low, high) = (window[degree - j + r], window[degree + r]);
+            let share = values[r] / (high - low);
+            values[r] = saved + (high - t) * share;
+            saved = (t - low) * share;
+        }
+        values[j] = saved;
+    }
+}
+
+/// From derivatives of basis functions of degree `j - 1` to those of degree `j`, of an order higher by one.
+///
+/// `N_i^j' = j (N_i^(j-1) / (u_(i+j) - u_i) - N_(i+1)^(j-1) / (u_(i+j+1) - u_(i+1)))`
+#[inline(always)]
+fn differentiate<R: Real>(window: &[R], degree: usize, j: usize, values: &mut [R]) {
+    let mut saved = R::ZERO;
+    for r in 0..j {
+        let share = values[r] * R::from_usize(j) / (window[degree + r] - window[degree - j + r]);
+        values[r] = saved - share;
+        saved = share;
+    }
+    values[j] = saved;
+}

@@ -1,0 +1,69 @@
+//! Bernstein polynomials `B_i^n(t) = C(n, i) t^i (1 - t)^(n - i)`, the basis of Bezier curves.
+
+use super::MAX_DEGREE;
+use crate::math::{Real, VectorSpace};
+
+/// Writes the value of the Bernstein polynomial `i` of degree `values.len() - 1` at `t` to `values[i]`.
+///
+/// They sum to 1 everywhere and lie in `[0, 1]` for `t` in `[0, 1]`. The triangle of Pascal, whose steps only add what
+/// is positive: Piegl and Tiller, "The NURBS Book", algorithm A1.3.
+pub fn bernstein<R: Real>(values: &mut [R], t: R) {
+    let s = R::ONE - t;
+    for j in 0..values.len() {
+        let mut saved = if j == 0 { R::ONE } else { R::ZERO };
+        for value in &mut values[..j] {
+            let before = *value;
+            *value = saved + s * before;
+            saved = t * before;
+        }
+        values[j] = saved;
+    }
+}
+
+/// The sum of all `points[i] B_i^n(t)` for at most [`MAX_DEGREE`] + 1 points; zero without points.
+///
+/// In as many steps as there are points: Horner's scheme on the powers of `t` that multiplies with `1 - t` in each step;
+/// for `t` in `[0, 1]` all terms have factors that are not negative, so that nothing is lost to cancellation. Farin,
+/// "Curves and Surfaces for CAGD", section 5.6.
+#[inline]
+pub(super) fn bernstein_sum<V: VectorSpace>(points: &[V], t: V::Scalar) -> V {
+    let s = V::Scalar::ONE - t;
+    match *points {
+        [] => V::default(),
+        [a] => a,
+        [a, b] => a * s + b * t,
+        [a, b, c] => (a * s + b * (t + t)) * s + c * (t * t),
+        [a, b, c, d] => {
+            let (tt, three) = (t * t, V::Scalar::from_f64(3.0));
+            ((a * s + b * (three * t)) * s + c * (three * tt)) * s + d * (tt * t)
+        }
+        [first, .., last] => {
+            let mut sum = first * s;
+            let mut power = t;
+            let binomials = &PASCAL[(points.len() - 1).min(MAX_DEGREE)][1..];
+            for (&point, &binomial) in points[1..points.len() - 1].iter().zip(binomials) {
+                sum = (sum + point * (power * V::Scalar::from_f64(binomial))) * s;
+                power *= t;
+            }
+            sum + last * power
+        }
+    }
+}
+
+/// The binomial coefficients `C(n, i)`.
+pub(super) static PASCAL: [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1] = pascal();
+
+const fn pascal() -> [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1] {
+    let mut rows = [[0.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
+    let mut n = 0;
+    while n <= MAX_DEGREE {
+        rows[n][0] = 1.0;
+        let mut i = 1;
+        while i <= n {
+            rows[n][i] = rows[n - 1][i - 1] + rows[n - 1][i];
+            i += 1;
+        }
+        n += 1;
+    }
+    rows
+}

@@ -1,0 +1,196 @@
+//! The same curve with more knots, and nearly the same one with less: Boehm, Oslo, Bezier segments.
+
+use super::bezier::MAX_ORDER;
+use super::control_point::check_degree;
+use super::split::check_buffer;
+use super::{BSpline, ControlPoint, KnotVector, SplineError};
+use crate::math::Real;
+
+impl<P: ControlPoint> BSpline<'_, P> {
+    /// Writes knots and control points of the same curve with one knot more, as an open one.
+    ///
+    /// Both buffers are longer by one than the knots and the control points of an open curve. Boehm 1980: new points
+    /// lie on the legs of the control polygon; "The NURBS Book", equation 5.15.
+    ///
+    /// # Errors
+    ///
+    /// Where the parameter lies outside of the domain or is a knot with full multiplicity, or a buffer does not fit.
+    pub fn insert(&self, t: P::Scalar, knots: &mut [P::Scalar], points: &mut [P]) -> Result<(), SplineError> {
+        let (old, degree) = (self.knots().knots(), self.degree());
+        self.check_parameter(t)?;
+        check_buffer(knots.len(), old.len() + 1)?;
+        check_buffer(points.len(), self.knots().count() + 1)?;
+        let span = old.partition_point(|&knot| knot <= t) - 1;
+        if self.knots().multiplicity(t) > degree {
+            return Err(SplineError::Multiplicity { index: span + 1, most: degree + 1 });
+        }
+        knots[..=span].copy_from_slice(&old[..=span]);
+        knots[span + 1] = t;
+        knots[span + 2..].copy_from_slice(&old[span + 1..]);
+        points.iter_mut().enumerate().for_each(|(i, point)| *point = self.boehm(span, t, i));
+        Ok(())
+    }
+
+    /// Writes the control points of the same curve on finer knots, which hold all of its own ones.
+    ///
+    /// Point `i` is the blossom of the curve at the knots `i + 1` to `i + degree`: the Oslo algorithm of Cohen, Lyche
+    /// and Riesenfeld 1980. Where an old knot is missing the curve is another one; knots outside of the domain may be
+    /// others, to clamp a curve or to cut a part out of it.
+    ///
+    /// # Errors
+    ///
+    /// Where the degree is another one or the buffer does not fit.
+    pub fn refine(&self, finer: KnotVector<P::Scalar>, points: &mut [P]) -> Result<(), SplineError> {
+        let degree = self.degree();
+        if finer.degree() != degree {
+            return Err(SplineError::Degree { degree: finer.degree() });
+        }
+        check_buffer(points.len(), finer.count())?;
+        for (i, point) in points.iter_mut().enumerate() {
+            let span = self.span_of(finer.knots(), degree, i);
+            *point = self.blossom(span, &finer.knots()[i + 1..=i + degree]);
+        }
+        Ok(())
+    }
+
+    /// Writes knots and control points of a curve with one knot less; returns how far it is away at most.
+    ///
+    /// Boehm's rule is solved from both sides for the points that the knot had moved. The distance is that of the
+    /// control points when the knot is inserted again, which bounds that of the curves; 0 to rounding where the curve
+    /// does not need the knot. Of rational curves it is measured in homogeneous coordinates. After Tiller 1992; "The
+    /// NURBS Book", section 5.4.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no such knot inside of the domain, or a buffer is not shorter by one than the knots and the
+    /// control points of an open curve.
+    pub fn remove(
+        &self,
+        knot: P::Scalar,
+        knots: &mut [P::Scalar],
+        points: &mut [P],
+    ) -> Result<P::Scalar, SplineError> {
+        let (old, degree) = (self.knots().knots(), self.degree());
+        let [start, end] = self.knots().domain();
+        let multiplicity = self.knots().multiplicity(knot);
+        if multiplicity == 0 || knot <= start || knot >= end {
+            return Err(SplineError::Parameter { parameter: knot.to_f64(), domain: [start, end].map(Real::to_f64) });
+        }
+        check_buffer(knots.len(), old.len() - 1)?;
+        check_buffer(points.len(), self.knots().count() - 1)?;
+        let last = old.partition_point(|&other| other <= knot) - 1;
+        knots[..last].copy_from_slice(&old[..last]);
+        knots[last..].copy_from_slice(&old[last + 1..]);
+        self.solve_boehm([last - degree, last - multiplicity], knot, points);
+        let without = BSpline::trusted(KnotVector::trusted(knots, degree), points);
+        let moved = |i: usize| (without.boehm(last - 1, knot, i) - self.control(i)).length();
+        Ok((last - degree..=last - multiplicity.min(degree)).map(moved).fold(P::Scalar::ZERO, Real::max))
+    }
+
+    /// Control point `i` after insertion of a knot behind knot `span`.
+    fn boehm(&self, span: usize, knot: P::Scalar, i: usize) -> P {
+        let (old, degree) = (self.knots().knots(), self.degree());
+        if i + degree <= span {
+            self.control(i)
+        } else if i > span || old[i] >= knot {
+            self.control(i - 1)
+        } else {
+            self.control(i - 1).lerp(self.control(i), (knot - old[i]) / (old[i + degree] - old[i]))
+        }
+    }
+
+    /// The control points before a knot was inserted, which moved those of `first..=last`: half of them from either side.
+    fn solve_boehm(&self, [first, last]: [usize; 2], knot: P::Scalar, points: &mut [P]) {
+        let (old, degree) = (self.knots().knots(), self.degree());
+        let share = |i: usize| (knot - old[i]) / (old[i + degree + 1] - old[i]);
+        points.iter_mut().enumerate().for_each(|(i, point)| *point = self.control(if i < first { i } else { i + 1 }));
+        let middle = usize::midpoint(first, last + 1);
+        for i in first..middle.min(last) {
+            points[i] = (self.control(i) - points[i - 1] * (P::Scalar::ONE - share(i))) / share(i);
+        }
+        for i in (middle..last).rev() {
+            let s = share(i + 1);
+            points[i] = (self.control(i + 1) - points[i + 1] * s) / (P::Scalar::ONE - s);
+        }
+    }
+
+    /// Writes the control points of the Bezier curve that is the piece of a span.
+    ///
+    /// Point `i` is the blossom with `i` times the end of the piece and else its beginning. `span` comes from
+    /// [`span`](KnotVector::span) or [`spans`](KnotVector::spans); any other one stands for the last piece before it.
+    ///
+    /// # Errors
+    ///
+    /// Where the buffer does not have length `degree + 1`.
+    pub fn bezier(&self, span: usize, points: &mut [P]) -> Result<(), SplineError> {
+        check_buffer(points.len(), self.degree() + 1)?;
+        let knots = self.knots().knots();
+        let span = self.knots().span(knots[span.min(knots.len() - 1)]);
+        let [start, end] = [knots[span], knots[span + 1]];
+        for (i, point) in points.iter_mut().enumerate() {
+            let mut arguments = [start; MAX_ORDER];
+            arguments[..i].fill(end);
+            *point = self.blossom(span, &arguments[..self.degree()]);
+        }
+        Ok(())
+    }
+
+    /// The blossom of the piece of a span: the polynomial of `degree` arguments that is linear in each, does not
+    /// depend on their order, and is the piece where all are equal.
+    ///
+    /// De Boor's algorithm with another parameter in each round. Ramshaw 1989.
+    pub fn blossom(&self, span: usize, arguments: &[P::Scalar]) -> P {
+        let degree = self.degree();
+        let span = span.clamp(degree, self.knots().count() - 1);
+        let window = self.knots().around(span);
+        let mut points = [P::default(); MAX_ORDER];
+        (0..=degree).for_each(|i| points[i] = self.control(span - degree + i));
+        for (round, &t) in arguments.iter().take(degree).enumerate() {
+            for i in 0..degree - round {
+                let (low, high) = (window[round + i], window[degree + i]);
+                points[i] = points[i] * ((high - t) / (high - low)) + points[i + 1] * ((t - low) / (high - low));
+            }
+        }
+        points[0]
+    }
+
+    /// The span of this curve that holds the first piece on which basis function `i` of finer knots acts.
+    pub(super) fn span_of(&self, finer: &[P::Scalar], degree: usize, i: usize) -> usize {
+        let start = finer[degree];
+        let pieces = &finer[i..=i + degree + 1];
+        let begins = |pair: &[P::Scalar]| pair[0] < pair[1] && pair[0] >= start;
+        let first = pieces.windows(2).position(begins).unwrap_or(0);
+        self.knots().span(pieces[first])
+    }
+
+    fn check_parameter(&self, t: P::Scalar) -> Result<(), SplineError> {
+        let [start, end] = self.knots().domain();
+        if t >= start && t <= end {
+            Ok(())
+        } else {
+            Err(SplineError::Parameter { parameter: t.to_f64(), domain: [start, end].map(Real::to_f64) })
+        }
+    }
+}
+
+/// Writes the knots of Bezier curves in a row: each break `degree` times, the outer ones once more.
+///
+/// The control points are those of the Bezier curves one after the other, without the first one of each but the first.
+///
+/// # Errors
+///
+/// Where the degree is 0 or too high, there are less than two breaks, or the buffer does not have length
+/// `degree * breaks + 2`.
+pub fn bezier_knots<R: Real>(breaks: &[R], degree: usize, knots: &mut [R]) -> Result<(), SplineError> {
+    check_degree(degree)?;
+    check_degree(degree + 1)?;
+    if breaks.len() < 2 {
+        return Err(SplineError::KnotCount { knots: breaks.len(), least: 2 });
+    }
+    check_buffer(knots.len(), degree * breaks.len() + 2)?;
+    let last = knots.len() - 1;
+    for (i, knot) in knots.iter_mut().enumerate() {
+        *knot = breaks[(i.clamp(1, last - 1) - 1) / degree];
+    }
+    Ok(())
+}

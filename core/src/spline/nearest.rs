@@ -1,0 +1,130 @@
+//! The point of a curve that is nearest to another point.
+
+use super::bernstein::PASCAL;
+use super::bezier::MAX_ORDER;
+use super::split::halve;
+use super::{BSpline, Bezier, ControlPoint};
+use crate::math::{Real, VectorSpace};
+
+/// A point of a curve and its distance from another point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Nearest<V: VectorSpace> {
+    /// Its parameter on the curve.
+    pub parameter: V::Scalar,
+    /// Where it lies.
+    pub point: V,
+    /// How far away it is.
+    pub distance: V::Scalar,
+}
+
+/// How often a curve is cut in halves: bounds are off by the square of the length of the pieces.
+const DEEPEST: usize = 28;
+
+impl<P: ControlPoint> Bezier<'_, P> {
+    /// The point nearest to another one; of several, one of them.
+    ///
+    /// The nearest one of all, not only of its surroundings: branch and bound. In Bernstein form no value of the squared
+    /// distance is below its smallest coefficient, so that parts of the curve that cannot be nearer are left out. The
+    /// distance is right to rounding, the parameter to the square root of it where the curve runs around the point.
+    pub fn nearest(&self, to: P::Point) -> Nearest<P::Point> {
+        let start = self.point(P::Scalar::ZERO);
+        let mut search = Search {
+            curve: *self,
+            to,
+            best: Nearest { parameter: P::Scalar::ZERO, point: start, distance: (start - to).length() },
+        };
+        let mut points = [P::default(); MAX_ORDER];
+        points[..=self.degree()].copy_from_slice(self.points());
+        search.improve(P::Scalar::ONE);
+        search.within(&mut points[..=self.degree()], [P::Scalar::ZERO, P::Scalar::ONE], 0);
+        search.best
+    }
+}
+
+impl<P: ControlPoint> BSpline<'_, P> {
+    /// The point nearest to another one; of several, one of them. As that of all its Bezier pieces.
+    pub fn nearest(&self, to: P::Point) -> Nearest<P::Point> {
+        let mut nearest = Nearest { distance: P::Scalar::INFINITY, ..Nearest::default() };
+        let mut points = [P::default(); MAX_ORDER];
+        let points = &mut points[..=self.degree()];
+        for span in self.knots().spans() {
+            if self.bezier(span, points).is_err() {
+                continue;
+            }
+            let [start, end] = [0, 1].map(|i| self.knots().knots()[span + i]);
+            let candidate = Bezier::trusted(points).nearest(to);
+            if candidate.distance < nearest.distance {
+                nearest = Nearest { parameter: start + (end - start) * candidate.parameter, ..candidate };
+            }
+        }
+        nearest
+    }
+}
+
+struct Search<'a, P: ControlPoint> {
+    curve: Bezier<'a, P>,
+    to: P::Point,
+    best: Nearest<P::Point>,
+}
+
+impl<P: ControlPoint> Search<'_, P> {
+    /// Looks for a nearer point in the part of the curve with these control points.
+    fn within(&mut self, points: &mut [P], [from, to]: [P::Scalar; 2], depth: usize) {
+        let best = self.best.distance * (P::Scalar::ONE - P::Scalar::EPSILON * P::Scalar::from_f64(4.0));
+        if depth == DEEPEST || self.least_squared_distance(points) >= best * best {
+            return;
+        }
+        let half = P::Scalar::from_f64(0.5);
+        let middle = (from + to) * half;
+        self.improve(self.newton(middle, [from, to]));
+        let mut before = [P::default(); MAX_ORDER];
+        let before = &mut before[..points.len()];
+        halve(points, half, before);
+        self.within(before, [from, middle], depth + 1);
+        self.within(points, [middle, to], depth + 1);
+    }
+
+    fn improve(&mut self, t: P::Scalar) {
+        let point = self.curve.point(t);
+        let distance = (point - self.to).length();
+        if distance < self.best.distance {
+            self.best = Nearest { parameter: t, point, distance };
+        }
+    }
+
+    /// A bound: the smallest coefficient of `|weight (c - p)|^2` over the largest weight.
+    fn least_squared_distance(&self, points: &[P]) -> P::Scalar {
+        let n = points.len() - 1;
+        let mut offsets = [P::Point::default(); MAX_ORDER];
+        let mut heaviest = P::Scalar::ZERO;
+        for (offset, point) in offsets.iter_mut().zip(points) {
+            *offset = (point.project() - self.to) * point.weight();
+            heaviest = heaviest.max(point.weight());
+        }
+        let mut least = P::Scalar::INFINITY;
+        for k in 0..=2 * n {
+            let (mut sum, mut total) = (P::Scalar::ZERO, P::Scalar::ZERO);
+            for i in k.saturating_sub(n)..=k.min(n) {
+                let binomials = P::Scalar::from_f64(PASCAL[n][i] * PASCAL[n][k - i]);
+                sum += offsets[i].dot(offsets[k - i]) * binomials;
+                total += binomials;
+            }
+            least = least.min(sum / total);
+        }
+        least / (heaviest * heaviest)
+    }
+
+    /// A few steps towards `(c - p) c' = 0`, held in the interval.
+    fn newton(&self, mut t: P::Scalar, [from, to]: [P::Scalar; 2]) -> P::Scalar {
+        for _ in 0..4 {
+            let jet = self.curve.at(t);
+            let offset = jet.point - self.to;
+            let bend = jet.first.length_squared() + offset.dot(jet.second);
+            if bend <= P::Scalar::ZERO {
+                return t;
+            }
+            t = (t - offset.dot(jet.first) / bend).clamp(from, to);
+        }
+        t
+    }
+}
