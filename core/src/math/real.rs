@@ -36,6 +36,8 @@ pub trait Real:
     const EPSILON: Self;
     /// Larger than all numbers.
     const INFINITY: Self;
+    /// 16 zeros, then 16 ones: in their middle lie the knots of Bezier curves up to degree 15.
+    const STEP: &'static [Self; 32];
 
     /// The nearest number to `x`.
     fn from_f64(x: f64) -> Self;
@@ -97,6 +99,10 @@ macro_rules! real {
             const PI: Self = core::$real::consts::PI;
             const EPSILON: Self = $real::EPSILON;
             const INFINITY: Self = $real::INFINITY;
+            const STEP: &'static [Self; 32] = &[
+                0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, //
+                1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0,
+            ];
 
             #[inline]
             fn from_f64(x: f64) -> Self {

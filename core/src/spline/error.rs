@@ -92,6 +92,20 @@ pub enum SplineError {
         /// Of the point that they do not determine.
         index: usize,
     },
+    /// The axis of a revolution has no direction.
+    NoAxis,
+    /// A revolution turns by nothing or by more than a full turn.
+    Turn {
+        /// In radians.
+        angle: f64,
+    },
+    /// Curves that shall be the edges of a surface do not meet.
+    Corner {
+        /// Of the corner: 1 is added at the end of `u`, 2 at the end of `v`.
+        index: usize,
+        /// How far they lie apart, in meters and weight.
+        distance: f64,
+    },
 }
 
 impl fmt::Display for SplineError {
@@ -127,6 +141,11 @@ impl fmt::Display for SplineError {
             Self::Buffer { length, wanted } => write!(f, "the buffer has length {length}; give one of {wanted}"),
             Self::Singular { index } => {
                 write!(f, "nothing determines control point {index}; give more points near it, or fewer control points")
+            }
+            Self::NoAxis => write!(f, "the axis has no direction; give a finite one that is not zero"),
+            Self::Turn { angle } => write!(f, "the turn is {angle} rad; give one up to a full turn that is not zero"),
+            Self::Corner { index, distance } => {
+                write!(f, "the curves at corner {index} lie {distance} apart; let them meet, with the same weight")
             }
         }
     }

@@ -64,12 +64,7 @@ impl<P: ControlPoint> BSpline<'_, P> {
     ///
     /// Where there is no such knot inside of the domain, or a buffer is not shorter by one than the knots and the
     /// control points of an open curve.
-    pub fn remove(
-        &self,
-        knot: P::Scalar,
-        knots: &mut [P::Scalar],
-        points: &mut [P],
-    ) -> Result<P::Scalar, SplineError> {
+    pub fn remove(&self, knot: P::Scalar, knots: &mut [P::Scalar], points: &mut [P]) -> Result<P::Scalar, SplineError> {
         let (old, degree) = (self.knots().knots(), self.degree());
         let [start, end] = self.knots().domain();
         let multiplicity = self.knots().multiplicity(knot);

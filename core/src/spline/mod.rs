@@ -26,6 +26,8 @@ mod nearest;
 mod roots;
 mod split;
 mod surface;
+#[cfg(feature = "alloc")]
+mod tessellate;
 
 pub use arc_length::*;
 pub use bernstein::*;
@@ -44,3 +46,5 @@ pub use knots::*;
 pub use nearest::*;
 pub use roots::*;
 pub use surface::*;
+#[cfg(feature = "alloc")]
+pub use tessellate::*;

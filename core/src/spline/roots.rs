@@ -115,7 +115,11 @@ fn single<R: Real + VectorSpace<Scalar = R>>(coefficients: &[R]) -> R {
     let mut t = coefficients[0] / (coefficients[0] - coefficients[coefficients.len() - 1]);
     for _ in 0..64 {
         let value = bernstein_sum(coefficients, t);
-        if (value < R::ZERO) == rises { low = t } else { high = t }
+        if (value < R::ZERO) == rises {
+            low = t
+        } else {
+            high = t
+        }
         let newton = t - value / bernstein_sum(&steps[..coefficients.len() - 1], t);
         let next = if newton > low && newton < high { newton } else { (low + high) * R::from_f64(0.5) };
         if (next - t).abs() <= R::EPSILON * next || value == R::ZERO {

@@ -1,8 +1,9 @@
 //! Bezier surfaces: curves of curves.
 
-use super::control_point::{check_degree, check_finite};
-use super::{Jet, MAX_DEGREE, SplineError, de_casteljau};
+use super::SurfaceJet;
 use crate::math::{Real, Vector};
+use crate::spline::control_point::{check_degree, check_finite};
+use crate::spline::{Jet, MAX_DEGREE, SplineError, de_casteljau};
 
 /// A tensor product Bezier surface on borrowed control points; `u` runs along the rows and `v` from row to row.
 ///
@@ -11,23 +12,6 @@ use crate::math::{Real, Vector};
 pub struct BezierSurface<'a, V> {
     points: &'a [V],
     columns: usize,
-}
-
-/// A point of a surface with its derivatives by `u` and `v`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SurfaceJet<V> {
-    /// Position.
-    pub point: V,
-    /// By `u`.
-    pub du: V,
-    /// By `v`.
-    pub dv: V,
-    /// Twice by `u`.
-    pub duu: V,
-    /// By `u` and `v`.
-    pub duv: V,
-    /// Twice by `v`.
-    pub dvv: V,
 }
 
 impl<'a, V: Vector> BezierSurface<'a, V> {
@@ -70,20 +54,10 @@ impl<'a, V: Vector> BezierSurface<'a, V> {
 
     /// The normal of length 1 at `u` and `v` in `[0, 1]`; zero where the surface has none.
     ///
-    /// Where an edge is collapsed to a point, `du x dv` vanishes there. The normal is then the limit on the way towards
-    /// the middle of the surface: the direction in which `du x dv` grows (l'Hopital).
+    /// Where an edge is collapsed to a point, it is the limit on the way towards the middle of the surface.
     pub fn normal(&self, u: V::Scalar, v: V::Scalar) -> V {
-        let jet = self.at(u, v);
-        let normal = jet.du.cross(jet.dv);
-        let speed = jet.du.length() + jet.dv.length();
-        // Nearer to a pole rounding errors of `du` are larger than what the limit leaves out.
-        if normal.length() > V::Scalar::EPSILON.sqrt() * speed * speed {
-            return normal.normalize_or_zero();
-        }
         let half = V::Scalar::from_f64(0.5);
-        let (u, v) = (half - u, half - v);
-        let growth = (jet.duu * u + jet.duv * v).cross(jet.dv) + jet.du.cross(jet.duv * u + jet.dvv * v);
-        growth.normalize_or_zero()
+        self.at(u, v).normal([half - u, half - v])
     }
 }
 

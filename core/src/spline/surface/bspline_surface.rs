@@ -1,0 +1,205 @@
+//! B-spline surfaces and NURBS: tensor products of B-spline curves.
+
+use super::basis::{Basis, basis_at};
+use super::{Curvature, SurfaceJet, SurfacePoint};
+use crate::math::{Real, VectorSpace};
+use crate::spline::control_point::{check_degree, check_points};
+use crate::spline::{ControlPoint, Homogeneous, KnotVector, SplineError};
+
+/// A tensor product surface on borrowed knots and control points, of degree 0 to [`MAX_DEGREE`](crate::spline::MAX_DEGREE) in both directions.
+///
+/// Of points it is a B-spline surface, of [`Homogeneous`] points a [`NurbsSurface`]; with [`bezier`](Self::bezier) it has
+/// one polynomial.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BSplineSurface<'a, P: VectorSpace> {
+    knots: [KnotVector<'a, P::Scalar>; 2],
+    points: &'a [P],
+}
+
+/// A rational B-spline surface.
+pub type NurbsSurface<'a, V> = BSplineSurface<'a, Homogeneous<V>>;
+
+/// The number that a surface has for parameters.
+pub type Scalar<P> = <P as VectorSpace>::Scalar;
+
+/// The first and the last `u`, the first and the last `v`.
+pub type Domain<R> = [[R; 2]; 2];
+
+/// The direction of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Along the rows of control points.
+    U,
+    /// From row to row.
+    V,
+}
+
+impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
+    /// A surface with knots along `u` and `v` and rows of control points, each as long as the knots along `u` say.
+    ///
+    /// # Errors
+    ///
+    /// Where there are not as many points as the knots of both directions say, a coordinate is not finite, or a weight is
+    /// not positive.
+    pub fn new([u, v]: [KnotVector<'a, P::Scalar>; 2], points: &'a [P]) -> Result<Self, SplineError> {
+        let wanted = u.count() * v.count();
+        if points.len() != wanted {
+            return Err(SplineError::PointCount { points: points.len(), wanted });
+        }
+        check_points(points)?;
+        Ok(Self { knots: [u, v], points })
+    }
+
+    /// A Bezier surface over the unit square, of degree `columns - 1` in `u` and of one less than the number of rows in
+    /// `v`.
+    ///
+    /// # Errors
+    ///
+    /// Where the points do not fill rows of `columns`, a degree is above [`MAX_DEGREE`](crate::spline::MAX_DEGREE), a coordinate is not finite, or a
+    /// weight is not positive.
+    pub fn bezier(points: &'a [P], columns: usize) -> Result<Self, SplineError> {
+        check_degree(points.len().min(1))?;
+        check_degree(columns)?;
+        if !points.len().is_multiple_of(columns) {
+            return Err(SplineError::Ragged { points: points.len(), columns });
+        }
+        check_degree(points.len() / columns)?;
+        Self::new([KnotVector::bezier(columns - 1)?, KnotVector::bezier(points.len() / columns - 1)?], points)
+    }
+
+    /// What was checked before.
+    pub(in crate::spline) fn assume(knots: [KnotVector<'a, P::Scalar>; 2], points: &'a [P]) -> Self {
+        Self { knots, points }
+    }
+
+    /// The knots along a direction.
+    pub fn knots(&self, direction: Direction) -> KnotVector<'a, P::Scalar> {
+        self.knots[direction as usize]
+    }
+
+    /// The control points, row by row.
+    pub fn points(&self) -> &'a [P] {
+        self.points
+    }
+
+    /// How many control points a row has.
+    pub fn columns(&self) -> usize {
+        self.knots[0].count()
+    }
+
+    /// The parameters that it has points for; others lie on the continuation of its pieces at the border.
+    pub fn domain(&self) -> Domain<P::Scalar> {
+        self.knots.map(|knots| knots.domain())
+    }
+
+    /// The point at `u` and `v`.
+    #[inline]
+    pub fn point(&self, u: P::Scalar, v: P::Scalar) -> P::Point {
+        self.sum(u, v).project()
+    }
+
+    /// The point with its first derivatives by `u` and by `v`.
+    #[inline]
+    pub fn tangents(&self, u: P::Scalar, v: P::Scalar) -> [P::Point; 3] {
+        let [[point, dv], [du, _]] = self.derivatives::<2>(u, v);
+        [point, du, dv]
+    }
+
+    /// The point with all derivatives up to the second.
+    #[inline]
+    pub fn at(&self, u: P::Scalar, v: P::Scalar) -> SurfaceJet<P::Point> {
+        SurfaceJet::new(self.derivatives::<3>(u, v))
+    }
+
+    /// All derivatives of an order below `N`: `[a][b]` is the one `a` times by `u` and `b` times by `v`, zero where `a + b`
+    /// is `N` or more. Where two pieces join, they are those of the piece with the larger parameters.
+    #[inline]
+    pub fn derivatives<const N: usize>(&self, u: P::Scalar, v: P::Scalar) -> [[P::Point; N]; N] {
+        self.derivatives_in(self.spans_at(u, v), u, v)
+    }
+
+    /// The same from the piece in these intervals of knots, continued where the parameters lie outside of them.
+    #[inline]
+    pub(in crate::spline) fn derivatives_in<const N: usize>(
+        &self,
+        spans: [usize; 2],
+        u: P::Scalar,
+        v: P::Scalar,
+    ) -> [[P::Point; N]; N] {
+        P::project_partials(self.partials_in::<N>(spans, u, v))
+    }
+
+    /// The normal of length 1; zero where the surface has none.
+    ///
+    /// Where an edge is collapsed to a point, it is the limit on the way towards the middle of the surface.
+    pub fn normal(&self, u: P::Scalar, v: P::Scalar) -> P::Point {
+        let [_, du, dv] = self.tangents(u, v);
+        let (normal, speed) = (crate::math::Vector::cross(du, dv), du.length_squared() + dv.length_squared());
+        let length = normal.length();
+        // Twice what decides in `SurfaceJet::normal`.
+        if length > (P::Scalar::EPSILON.sqrt() + P::Scalar::EPSILON.sqrt()) * speed {
+            return normal / length;
+        }
+        let [middle_u, middle_v] = self.domain().map(|[low, high]| (low + high) * P::Scalar::from_f64(0.5));
+        self.at(u, v).normal([middle_u - u, middle_v - v])
+    }
+
+    /// How the surface bends.
+    pub fn curvature(&self, u: P::Scalar, v: P::Scalar) -> Curvature<P::Scalar> {
+        self.at(u, v).curvature()
+    }
+
+    /// The sum of control points times basis functions.
+    #[inline]
+    fn sum(&self, u: P::Scalar, v: P::Scalar) -> P {
+        let spans = self.spans_at(u, v);
+        let along: Basis<_, 1> = basis_at(&self.knots[0], spans[0], u);
+        let across: Basis<_, 1> = basis_at(&self.knots[1], spans[1], v);
+        let mut sum = P::default();
+        for (row, &weight) in self.rows(spans).zip(&across[0]) {
+            let mut of_row = P::default();
+            row.iter().zip(&along[0]).for_each(|(&point, &weight)| of_row += point * weight);
+            sum += of_row * weight;
+        }
+        sum
+    }
+
+    /// The derivatives in the space of the control points.
+    #[inline]
+    fn partials_in<const N: usize>(&self, spans: [usize; 2], u: P::Scalar, v: P::Scalar) -> [[P; N]; N] {
+        let along: Basis<_, N> = basis_at(&self.knots[0], spans[0], u);
+        let across: Basis<_, N> = basis_at(&self.knots[1], spans[1], v);
+        let mut partials = [[P::default(); N]; N];
+        for (j, row) in self.rows(spans).enumerate() {
+            let mut of_row = [P::default(); N];
+            for (i, &point) in row.iter().enumerate() {
+                of_row.iter_mut().zip(&along).for_each(|(sum, weights)| *sum += point * weights[i]);
+            }
+            for (a, of_row) in of_row.into_iter().enumerate() {
+                let sums = partials[a].iter_mut().zip(&across).take(N - a);
+                sums.for_each(|(sum, weights)| *sum += of_row * weights[j]);
+            }
+        }
+        partials
+    }
+
+    #[inline]
+    fn spans_at(&self, u: P::Scalar, v: P::Scalar) -> [usize; 2] {
+        [self.knots[0].span(u), self.knots[1].span(v)]
+    }
+
+    /// The parts of the rows that have an influence in an interval of knots.
+    #[inline]
+    pub(super) fn rows(&self, [i, j]: [usize; 2]) -> impl Iterator<Item = &'a [P]> + use<'a, P> {
+        let [p, q] = [self.knots[0].degree(), self.knots[1].degree()];
+        let columns = self.columns();
+        self.points[(j - q) * columns..(j + 1) * columns].chunks_exact(columns).map(move |row| &row[i - p..=i])
+    }
+}
+
+impl<'a, V: crate::math::Vector> NurbsSurface<'a, V> {
+    /// The weights of the control points.
+    pub fn weights(&self) -> impl Iterator<Item = V::Scalar> + use<'a, V> {
+        self.points.iter().map(|point| point.weight())
+    }
+}

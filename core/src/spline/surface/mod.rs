@@ -1,0 +1,50 @@
+//! Surfaces: tensor products of Bezier and B-spline curves, rational ones too, and what is built from curves.
+//!
+//! `u` runs along the rows of control points and `v` from row to row. The front of a surface is the side from which `u`
+//! to `v` is a turn to the left.
+
+mod basis;
+mod bezier_knots;
+mod bezier_surface;
+mod blossom;
+mod bounds;
+mod bspline_surface;
+#[cfg(feature = "alloc")]
+mod coons;
+mod curvature;
+mod edge;
+#[cfg(feature = "alloc")]
+mod extrusion;
+mod jet;
+#[cfg(feature = "alloc")]
+mod loft;
+mod nearest;
+#[cfg(feature = "alloc")]
+mod owned_curve;
+#[cfg(feature = "alloc")]
+mod owned_surface;
+#[cfg(feature = "alloc")]
+mod revolution;
+mod ray;
+mod surface_point;
+
+pub use bezier_surface::*;
+pub use bspline_surface::*;
+#[cfg(feature = "alloc")]
+pub use coons::*;
+pub use curvature::*;
+pub use edge::*;
+#[cfg(feature = "alloc")]
+pub use extrusion::*;
+pub use jet::*;
+#[cfg(feature = "alloc")]
+pub use loft::*;
+pub use nearest::*;
+#[cfg(feature = "alloc")]
+pub use owned_curve::OwnedCurve;
+#[cfg(feature = "alloc")]
+pub use owned_surface::*;
+pub use ray::SurfaceHit;
+#[cfg(feature = "alloc")]
+pub use revolution::*;
+pub use surface_point::*;

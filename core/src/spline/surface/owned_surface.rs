@@ -1,0 +1,183 @@
+//! Surfaces that own their knots and points: they can be edited, refined, split and cut into curves.
+
+use alloc::vec::Vec;
+
+use super::owned_curve::OwnedCurve;
+use super::{BSplineSurface, Direction, SurfacePoint};
+use crate::math::{Real, VectorSpace};
+use crate::spline::{KnotVector, MAX_DEGREE, SplineError};
+
+/// A tensor product surface that owns its knots and control points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OwnedSurface<P: VectorSpace> {
+    knots: [Vec<P::Scalar>; 2],
+    degrees: [usize; 2],
+    points: Vec<P>,
+}
+
+impl<P: SurfacePoint> OwnedSurface<P> {
+    /// A surface with knots and degrees along `u` and `v`, and rows of control points along `u`.
+    ///
+    /// # Errors
+    ///
+    /// As those of [`KnotVector::new`] and [`BSplineSurface::new`].
+    pub fn new(knots: [Vec<P::Scalar>; 2], degrees: [usize; 2], points: Vec<P>) -> Result<Self, SplineError> {
+        let [u, v] = [0, 1].map(|k| KnotVector::new(&knots[k], degrees[k]));
+        BSplineSurface::new([u?, v?], &points)?;
+        Ok(Self { knots, degrees, points })
+    }
+
+    /// A copy of a borrowed surface.
+    pub fn copy_of(surface: &BSplineSurface<P>) -> Self {
+        let all = [Direction::U, Direction::V].map(|direction| surface.knots(direction));
+        let (knots, degrees) = (all.map(|knots| knots.knots().to_vec()), all.map(|knots| knots.degree()));
+        Self { knots, degrees, points: surface.points().to_vec() }
+    }
+
+    /// To evaluate it.
+    pub fn surface(&self) -> BSplineSurface<'_, P> {
+        let knots = [0, 1].map(|k| KnotVector::trusted(&self.knots[k], self.degrees[k]));
+        BSplineSurface::assume(knots, &self.points)
+    }
+
+    /// Moves control points, in rows along `u`.
+    ///
+    /// # Errors
+    ///
+    /// Where there are not as many as before, a coordinate is not finite, or a weight is not positive.
+    pub fn set_points(&mut self, points: &[P]) -> Result<(), SplineError> {
+        BSplineSurface::new([Direction::U, Direction::V].map(|d| self.surface().knots(d)), points)?;
+        self.points.copy_from_slice(points);
+        Ok(())
+    }
+
+    /// The same surface with more knots along a direction.
+    ///
+    /// # Errors
+    ///
+    /// Where a knot lies outside of the domain or there are too many equal ones.
+    pub fn with_knots(&self, direction: Direction, knots: &[P::Scalar]) -> Result<Self, SplineError> {
+        let [low, high] = self.surface().knots(direction).domain();
+        if let Some(outside) = knots.iter().find(|&&knot| !(low <= knot && knot <= high)) {
+            let domain = [low, high].map(Real::to_f64);
+            return Err(SplineError::Parameter { parameter: outside.to_f64(), domain });
+        }
+        let probe = self.lines(direction).next().ok_or(SplineError::Empty)?.with_inserted_knots(knots);
+        KnotVector::new(&probe, self.degrees[direction as usize])?;
+        Ok(self.changed(direction, |line| line.with_inserted(knots)))
+    }
+
+    /// The same surface with a degree higher by one along a direction.
+    ///
+    /// # Errors
+    ///
+    /// Where it is [`MAX_DEGREE`] already.
+    pub fn elevated(&self, direction: Direction) -> Result<Self, SplineError> {
+        match self.degrees[direction as usize] {
+            MAX_DEGREE => Err(SplineError::Degree { degree: MAX_DEGREE + 1 }),
+            _ => Ok(self.changed(direction, OwnedCurve::elevated)),
+        }
+    }
+
+    /// The parts before and after a parameter.
+    ///
+    /// # Errors
+    ///
+    /// Where the parameter is not inside of the domain.
+    pub fn split(&self, direction: Direction, t: P::Scalar) -> Result<[Self; 2], SplineError> {
+        let [low, high] = self.surface().knots(direction).domain();
+        if !(low < t && t < high) {
+            return Err(SplineError::Parameter { parameter: t.to_f64(), domain: [low, high].map(Real::to_f64) });
+        }
+        Ok([0, 1].map(|part| self.changed(direction, |line| line.part(t, part))))
+    }
+
+    /// The curve on the surface along a direction, where the other parameter is `t`, held within the domain.
+    pub fn isocurve(&self, along: Direction, t: P::Scalar) -> OwnedCurve<P> {
+        let across = if along == Direction::U { Direction::V } else { Direction::U };
+        let knots = self.surface().knots(across);
+        let [low, high] = knots.domain();
+        let t = t.clamp(low, high);
+        let span = knots.span(t);
+        let weights = super::basis::basis_at::<_, 1>(&knots, span, t)[0];
+        let p = knots.degree();
+        let point = |line: OwnedCurve<P>| {
+            let mut sum = P::default();
+            line.points[span - p..=span].iter().zip(&weights).for_each(|(&point, &weight)| sum += point * weight);
+            sum
+        };
+        let along = along as usize;
+        let points = self.lines(across).map(point).collect();
+        OwnedCurve { knots: self.knots[along].clone(), degree: self.degrees[along], points }
+    }
+
+    /// The control points, in rows along `u`.
+    pub fn points(&self) -> &[P] {
+        &self.points
+    }
+
+    /// With `u` and `v` exchanged; the front becomes the back.
+    pub fn transposed(&self) -> Self {
+        let columns = self.surface().columns();
+        let points = (0..columns).flat_map(|i| self.points.iter().skip(i).step_by(columns).copied()).collect();
+        let ([u, v], [p, q]) = (self.knots.clone(), self.degrees);
+        Self { knots: [v, u], degrees: [q, p], points }
+    }
+
+    /// Surfaces over the unit square with the same degree and the same knots along a direction.
+    pub(super) fn alike(surfaces: [Self; 3], direction: Direction) -> [Self; 3] {
+        let index = direction as usize;
+        let probes = surfaces.iter().filter_map(|surface| surface.lines(direction).next()).collect();
+        let (knots, degree) = match super::owned_curve::compatible(probes).into_iter().next() {
+            Some(probe) => (probe.knots, probe.degree),
+            None => return surfaces,
+        };
+        surfaces.map(|mut surface| {
+            while surface.degrees[index] < degree {
+                surface = surface.changed(direction, OwnedCurve::elevated);
+            }
+            surface.changed(direction, |line| line.with_knots(knots.clone()))
+        })
+    }
+
+    /// From lines of control points along `u`, all with the same knots, one for each control point along `v`.
+    pub(super) fn from_rows(
+        rows: Vec<OwnedCurve<P>>,
+        v_knots: Vec<P::Scalar>,
+        v_degree: usize,
+    ) -> Result<Self, SplineError> {
+        let (u_knots, u_degree) = rows.first().map(|row| (row.knots.clone(), row.degree)).ok_or(SplineError::Empty)?;
+        let points = rows.into_iter().flat_map(|row| row.points).collect();
+        Self::new([u_knots, v_knots], [u_degree, v_degree], points)
+    }
+
+    /// The lines of control points along a direction, as curves.
+    fn lines(&self, direction: Direction) -> impl Iterator<Item = OwnedCurve<P>> + '_ {
+        let columns = self.surface().columns();
+        let rows = self.points.len() / columns;
+        let (count, length, step, stride) = match direction {
+            Direction::U => (rows, columns, columns, 1),
+            Direction::V => (columns, rows, 1, columns),
+        };
+        let (knots, degree) = (&self.knots[direction as usize], self.degrees[direction as usize]);
+        (0..count).map(move |line| OwnedCurve {
+            knots: knots.clone(),
+            degree,
+            points: (0..length).map(|k| self.points[line * step + k * stride]).collect(),
+        })
+    }
+
+    /// The same change to all lines along a direction.
+    fn changed(&self, direction: Direction, change: impl Fn(&OwnedCurve<P>) -> OwnedCurve<P>) -> Self {
+        let lines: Vec<OwnedCurve<P>> = self.lines(direction).map(|line| change(&line)).collect();
+        let (knots, degree, length) = (lines[0].knots.clone(), lines[0].degree, lines[0].points.len());
+        let mut changed = self.clone();
+        let index = direction as usize;
+        (changed.knots[index], changed.degrees[index]) = (knots, degree);
+        changed.points = match direction {
+            Direction::U => lines.into_iter().flat_map(|line| line.points).collect(),
+            Direction::V => (0..length).flat_map(|k| lines.iter().map(move |line| line.points[k])).collect(),
+        };
+        changed
+    }
+}

@@ -1,0 +1,60 @@
+//! Whether a straight edge or a flat triangle is near enough to the surface.
+
+use super::Tolerance;
+use super::refine::Vertex;
+use crate::math::{Real, Vector};
+
+impl<R: Real> Tolerance<R> {
+    /// Whether an edge inside the surface is near enough to the curve through its middle, and its normals to each other.
+    pub(super) fn holds_inside<V: Vector<Scalar = R>>(&self, [a, middle, b]: [&Vertex<V>; 3]) -> bool {
+        let step = [0, 1].map(|k| b.uv[k] - a.uv[k]);
+        let [from, to] = [a, b].map(|end| end.du * step[0] + end.dv * step[1]);
+        let turn = angle_above(a.normal, b.normal, self.angle)
+            || angle_above(a.normal, middle.normal, self.angle)
+            || angle_above(middle.normal, b.normal, self.angle);
+        !turn && self.holds_chord([a.point, middle.point, b.point], [from, to])
+    }
+
+    /// Whether an edge is near enough to a curve with these derivatives at its ends, in whichever direction it is seen.
+    pub(super) fn holds_at_border<V: Vector<Scalar = R>>(&self, [a, middle, b]: [V; 3], [from, to]: [V; 2]) -> bool {
+        let is_turned = a.to_array().partial_cmp(&b.to_array()) == Some(core::cmp::Ordering::Greater);
+        let (points, tangents) = if is_turned { ([b, middle, a], [-to, -from]) } else { ([a, middle, b], [from, to]) };
+        let half = self.angle * R::from_f64(0.5);
+        !angle_above(points[1] - points[0], points[2] - points[1], half) && self.holds_chord(points, tangents)
+    }
+
+    /// Whether the middle of an edge lies near it, and the cubic through its ends at a quarter and at three quarters,
+    /// which sees curves that cross the edge in their middle.
+    fn holds_chord<V: Vector<Scalar = R>>(&self, [a, middle, b]: [V; 3], [from, to]: [V; 2]) -> bool {
+        let [near, far, steep, flat] = [0.843_75, 0.156_25, 0.140_625, 0.046_875].map(R::from_f64);
+        let quarter = a * near + b * far + (from * steep - to * flat);
+        let three_quarters = a * far + b * near + (from * flat - to * steep);
+        [middle, quarter, three_quarters].iter().all(|&point| to_line(point, a, b) <= self.chord)
+    }
+
+    /// Whether a triangle is near enough to the point of the surface at its center.
+    pub(super) fn holds_in_triangle<V: Vector<Scalar = R>>(
+        &self,
+        corners: [&Vertex<V>; 3],
+        center: &Vertex<V>,
+    ) -> bool {
+        let [a, b, c] = corners.map(|corner| corner.point);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let distance = (center.point - a).dot(normal).abs();
+        let mean = corners[0].normal + corners[1].normal + corners[2].normal;
+        distance <= self.chord && !angle_above(mean, center.normal, self.angle * R::from_f64(0.25))
+    }
+}
+
+/// Whether two directions lie more than an angle apart; directions of length zero do not.
+pub(super) fn angle_above<V: Vector>(a: V, b: V, angle: V::Scalar) -> bool {
+    let (sine, cosine) = (a.cross(b).length(), a.dot(b));
+    sine.atan2(cosine) > angle
+}
+
+/// The distance of a point from the line through two others, or from both where they are one.
+fn to_line<V: Vector>(point: V, a: V, b: V) -> V::Scalar {
+    let (along, from_a) = (b - a, point - a);
+    let length = along.length();
+    if length > V::Scalar::ZERO { along.cross(from_a).length() / length } else { from_a.length() }
+}

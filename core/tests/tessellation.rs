@@ -1,0 +1,294 @@
+//! Surfaces as triangles: no cracks, near enough, with normals and charts; and what a bake makes of them.
+
+mod common;
+
+use std::collections::HashMap;
+
+use common::*;
+use glam::{DVec3, Vec3};
+use radiosity::bake::Quality;
+use radiosity::light::{Light, LightSource, PointLight};
+use radiosity::scene::Scene;
+use radiosity::spline::*;
+
+type Nurbs3 = OwnedSurface<Homogeneous<DVec3>>;
+
+const TAU: f64 = core::f64::consts::TAU;
+
+fn tolerance(chord: f64, angle: f64) -> Tolerance<f64> {
+    Tolerance::new(chord, angle).unwrap()
+}
+
+fn knots(knots: &[f64], degree: usize) -> KnotVector<'_, f64> {
+    KnotVector::new(knots, degree).unwrap()
+}
+
+fn turned(profile: &[[f64; 3]], all: &[f64], degree: usize) -> Nurbs3 {
+    let points: Vec<_> = profile.iter().map(|&[r, z, w]| Homogeneous::new(DVec3::new(r, 0.0, z), w)).collect();
+    let axis = Axis { origin: DVec3::ZERO, direction: DVec3::Z };
+    revolution(&BSpline::new(knots(all, degree), &points).unwrap(), axis, TAU).unwrap()
+}
+
+fn sphere() -> Nurbs3 {
+    let w = core::f64::consts::FRAC_1_SQRT_2;
+    let profile = [[0.0, -1.0, 1.0], [1.0, -1.0, w], [1.0, 0.0, 1.0], [1.0, 1.0, w], [0.0, 1.0, 1.0]];
+    turned(&profile, &[0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0], 2)
+}
+
+/// Radii 1 and 0.4.
+fn torus() -> Nurbs3 {
+    let w = core::f64::consts::FRAC_1_SQRT_2;
+    let corner = [[0, -1], [1, -1], [1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1]];
+    let profile: Vec<_> = (0..9)
+        .map(|k| [1.0 + 0.4 * f64::from(corner[k][0]), 0.4 * f64::from(corner[k][1]), if k % 2 == 0 { 1.0 } else { w }])
+        .collect();
+    turned(&profile, &[0., 0., 0., 1., 1., 2., 2., 3., 3., 4., 4., 4.], 2)
+}
+
+fn vase() -> Nurbs3 {
+    let profile =
+        [[0.16, 0.0], [0.34, 0.1], [0.4, 0.35], [0.12, 0.55], [0.14, 0.7], [0.22, 0.8]].map(|[r, z]| [r, z, 1.0]);
+    turned(&profile, &[0., 0., 0., 0., 0.4, 0.7, 1., 1., 1., 1.], 3)
+}
+
+/// Four bicubic patches in a square of two by two; heights are different at each control point.
+fn quilt() -> Vec<OwnedSurface<DVec3>> {
+    let height = |i: usize, j: usize| 0.6 * (2.3 * i as f64 + 0.4).sin() * (1.7 * j as f64).cos();
+    let net = |i: usize, j: usize| {
+        DVec3::new(
+            i as f64 / 3.0,
+            j as f64 / 3.0,
+            if i > 3 && j < 4 { 4.0 } else { 1.0 } * if i == 3 || j == 3 { 1.0 } else { height(i, j) },
+        )
+    };
+    let unit = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+    let patch = |[x, y]: [usize; 2]| {
+        let points = (0..16).map(|k| net(3 * x + k % 4, 3 * y + k / 4)).collect();
+        OwnedSurface::new([unit.clone(), unit.clone()], [3, 3], points).unwrap()
+    };
+    // One patch runs the other way in both directions, one has both exchanged.
+    let mut patches: Vec<_> = [[0, 0], [1, 0], [0, 1], [1, 1]].map(patch).into();
+    let mut reversed = patches[3].points().to_vec();
+    reversed.reverse();
+    patches[3].set_points(&reversed).unwrap();
+    patches[2] = patches[2].transposed();
+    patches
+}
+
+/// How often each edge is used, its ends by their positions.
+fn edges(parts: &[Tessellation<DVec3>]) -> HashMap<[[u64; 3]; 2], usize> {
+    let mut edges = HashMap::new();
+    for part in parts {
+        for t in &part.triangles {
+            for k in 0..3 {
+                let key = |i: usize| part.positions[t[i % 3] as usize].to_array().map(|x| (x + 0.0).to_bits());
+                let (a, b) = (key(k), key(k + 1));
+                *edges.entry([a.min(b), a.max(b)]).or_insert(0) += 1;
+            }
+        }
+    }
+    edges
+}
+
+fn area(part: &Tessellation<DVec3>) -> f64 {
+    let of = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|i| part.positions[i as usize]);
+        0.5 * (b - a).cross(c - a).length()
+    };
+    part.triangles.iter().map(of).sum()
+}
+
+/// The largest distance of the surface from triangles, and the largest angle between the interpolated and the true normal.
+fn errors<P: SurfacePoint<Scalar = f64, Point = DVec3>>(
+    surface: &BSplineSurface<P>,
+    part: &Tessellation<DVec3>,
+) -> [f64; 2] {
+    let mut worst = [0.0_f64; 2];
+    for t in &part.triangles {
+        let t = t.map(|i| i as usize);
+        let [a, b, c] = t.map(|i| part.positions[i]);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        for (i, j) in (0..=6).flat_map(|i| (0..=6 - i).map(move |j| (i, j))) {
+            let weights = [i as f64 / 6.0, j as f64 / 6.0, (6 - i - j) as f64 / 6.0];
+            let uv = [0, 1].map(|k| (0..3).map(|m| weights[m] * part.parameters[t[m]][k]).sum::<f64>());
+            let point = surface.point(uv[0], uv[1]);
+            let smooth: DVec3 = (0..3).map(|m| part.normals[t[m]] * weights[m]).sum();
+            worst[0] = worst[0].max((point - a).dot(normal).abs());
+            worst[1] = worst[1].max(smooth.angle_between(surface.normal(uv[0], uv[1])));
+        }
+    }
+    worst
+}
+
+#[test]
+fn closed_surfaces_are_watertight_and_have_their_area() {
+    let pi = core::f64::consts::PI;
+    for (surface, exact) in [(sphere(), 4.0 * pi), (torus(), 4.0 * pi * pi * 0.4)] {
+        let mut last = f64::INFINITY;
+        for chord in [0.03, 0.003, 0.0003] {
+            let part = tessellate(&surface.surface(), &tolerance(chord, 1.0), ChartScale::Area);
+            assert!(edges(core::slice::from_ref(&part)).values().all(|&count| count == 2), "a crack at {chord}");
+            let error = (area(&part) / exact - 1.0).abs();
+            assert!(error < 4.0 * chord && error < last, "{error} at {chord}");
+            last = error;
+            println!("chord {chord}: {} triangles, area off by {error:.2e}", part.triangles.len());
+        }
+    }
+}
+
+#[test]
+fn neighbors_of_different_density_have_no_cracks() {
+    let patches = quilt();
+    for (chord, angle) in [(0.03, 0.5), (0.003, 0.1), (0.0004, 3.0)] {
+        let cut =
+            |patch: &OwnedSurface<DVec3>| tessellate(&patch.surface(), &tolerance(chord, angle), ChartScale::Area);
+        let parts: Vec<_> = patches.iter().map(cut).collect();
+        let counts: Vec<usize> = parts.iter().map(|part| part.triangles.len()).collect();
+        assert!(counts.iter().max() > counts.iter().min(), "{counts:?}");
+        let is_border = |point: [u64; 3]| {
+            let [x, y, _] = point.map(f64::from_bits);
+            [x == 0.0, x == 2.0, y == 0.0, y == 2.0]
+        };
+        for ([a, b], count) in edges(&parts) {
+            let outside = is_border(a).iter().zip(is_border(b)).any(|(&a, b)| a && b);
+            assert_eq!(count, if outside { 1 } else { 2 }, "an edge from {:?} with {counts:?}", a.map(f64::from_bits));
+        }
+    }
+}
+
+#[test]
+fn triangles_and_normals_are_near_enough() {
+    for (chord, angle) in [(0.02, 0.4), (0.002, 0.2), (0.0005, 0.1)] {
+        for surface in [sphere(), torus(), vase()] {
+            check_nearness(&surface.surface(), chord, angle);
+        }
+        quilt().iter().for_each(|patch| check_nearness(&patch.surface(), chord, angle));
+    }
+}
+
+fn check_nearness<P: SurfacePoint<Scalar = f64, Point = DVec3>>(surface: &BSplineSurface<P>, chord: f64, angle: f64) {
+    let part = tessellate(surface, &tolerance(chord, angle), ChartScale::Area);
+    let [distance, turn] = errors(surface, &part);
+    println!(
+        "{} triangles: {:.2} of the chord, {:.2} of the angle",
+        part.triangles.len(),
+        distance / chord,
+        turn / angle
+    );
+    assert!(distance <= chord && turn <= angle, "{distance} of {chord}, {turn} of {angle}");
+}
+
+/// A flat sheet needs two triangles; a cylinder is cut around its axis only.
+#[test]
+fn flat_is_cheap() {
+    let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE - DVec3::Z];
+    let flat = tessellate(&BSplineSurface::bezier(&corners, 2).unwrap(), &tolerance(1e-3, 0.1), ChartScale::Area);
+    assert_eq!(flat.triangles, [[0, 1, 3], [0, 3, 2]]);
+    let cylinder = turned(&[[1.0, 0.0, 1.0], [1.0, 5.0, 1.0]], &[0.0, 0.0, 1.0, 1.0], 1);
+    let part = tessellate(&cylinder.surface(), &tolerance(1e-2, 0.4), ChartScale::Area);
+    assert!(part.triangles.len() <= 200, "{}", part.triangles.len());
+}
+
+/// An angular profile keeps its creases: the normals of each side are true, and nothing gapes.
+#[test]
+fn creases_stay_sharp() {
+    let drum =
+        turned(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]], &[0., 0., 1., 2., 3., 3.], 1);
+    let part = tessellate(&drum.surface(), &tolerance(1e-3, 0.2), ChartScale::Area);
+    assert!(edges(core::slice::from_ref(&part)).values().all(|&count| count == 2));
+    for t in &part.triangles {
+        let [a, b, c] = t.map(|i| part.positions[i as usize]);
+        let flat = (b - a).cross(c - a).normalize();
+        assert!(t.iter().all(|&i| part.normals[i as usize].dot(flat) > 0.98));
+    }
+}
+
+/// Meters of surface for each unit of the chart, the largest over the smallest, between the shares of the area given.
+fn spread(part: &Tessellation<DVec3>) -> f64 {
+    let ratio = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|i| part.positions[i as usize]);
+        let [p, q, r] = t.map(|i| glam::DVec2::from_array(part.uv_1[i as usize]));
+        (b - a).cross(c - a).length() / (q - p).perp_dot(r - p).abs()
+    };
+    let mut ratios: Vec<f64> = part.triangles.iter().map(ratio).collect();
+    ratios.sort_by(f64::total_cmp);
+    ratios[ratios.len() - 1] / ratios[0]
+}
+
+#[test]
+fn texels_have_equal_areas() {
+    let fine = tolerance(2e-4, 0.1);
+    for (name, surface, limit) in [("torus", torus(), 1.05), ("vase", vase(), 1.1)] {
+        let [by_area, by_length] =
+            [ChartScale::Area, ChartScale::Length].map(|scale| spread(&tessellate(&surface.surface(), &fine, scale)));
+        println!("{name}: spread of the area of texels {by_area:.3}, with equal lengths {by_length:.3}");
+        assert!(by_area < limit && by_length > by_area, "{name}: {by_area} {by_length}");
+    }
+    for part in quilt().iter().map(|patch| tessellate(&patch.surface(), &fine, ChartScale::Area)) {
+        assert!(part.uv_1.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
+        let corner = |uv: [f64; 2]| part.uv_1.iter().any(|&other| other == uv);
+        assert!(
+            corner([0.0, 0.0])
+                && part.triangles.iter().all(|t| {
+                    let [p, q, r] = t.map(|i| glam::DVec2::from_array(part.uv_1[i as usize]));
+                    (q - p).perp_dot(r - p) > 0.0
+                })
+        );
+    }
+}
+
+#[test]
+fn tolerances_are_checked() {
+    assert_eq!(Tolerance::new(0.0, 0.1).unwrap_err(), TessellationError::Chord { chord: 0.0 });
+    assert!(Tolerance::new(0.1, f64::NAN).is_err());
+    // All points equal: nothing is left, and nothing fails.
+    let point = [DVec3::X; 16];
+    let nothing = tessellate(&BSplineSurface::bezier(&point, 4).unwrap(), &tolerance(1e-3, 0.1), ChartScale::Area);
+    assert!(nothing.triangles.is_empty());
+}
+
+/// A vault over a square: four cylinders' quarters would do; here four bicubic patches that join smoothly.
+fn vault() -> Vec<Nurbs3> {
+    // Half a circle in two exact arcs, extruded in two bays.
+    let w = core::f64::consts::FRAC_1_SQRT_2;
+    let arcs = [[[1.0, 1.0, 1.0], [1.0, 2.0, w], [0.0, 2.0, 1.0]], [[0.0, 2.0, 1.0], [-1.0, 2.0, w], [-1.0, 1.0, 1.0]]];
+    let bay = |arc: &[[f64; 3]; 3], y: f64| {
+        let points = arc.map(|[x, z, w]| Homogeneous::new(DVec3::new(x, y, z), w));
+        extrusion(&BSpline::new(KnotVector::bezier(2).unwrap(), &points).unwrap(), DVec3::Y).unwrap()
+    };
+    arcs.iter().flat_map(|arc| [bay(arc, -1.0), bay(arc, 0.0)]).collect()
+}
+
+/// A vase on a floor under a vault of four patches: the bake takes the charts as they are.
+#[test]
+fn a_vase_under_a_vault_needs_no_unwrap() {
+    let mut scene = Scene { materials: vec![grey(0.6, 0.0)], ..Default::default() };
+    scene.materials[0].double_sided = true;
+    let fine = tolerance(1e-3, 0.15);
+    let patches = core::iter::once(("vase", vase())).chain(vault().into_iter().map(|patch| ("vault", patch)));
+    for (index, (name, patch)) in patches.enumerate() {
+        let mesh = tessellate(&patch.surface(), &fine, ChartScale::Area).mesh(format!("{name} {index}"));
+        add_mesh(&mut scene, mesh, 0);
+    }
+    add_quad(&mut scene, "floor", [[-1., -1., 0.], [1., -1., 0.], [1., 1., 0.], [-1., 1., 0.]], 0);
+    for [a, b] in [[[-1.0, -1.0], [-1.0, 1.0]], [[1.0, 1.0], [1.0, -1.0]]] {
+        add_quad(&mut scene, "wall", [[a[0], a[1], 0.], [a[0], a[1], 1.], [b[0], b[1], 1.], [b[0], b[1], 0.]], 0);
+    }
+    let lamp = PointLight {
+        position: Vec3::new(0.5, -0.3, 1.4),
+        intensity: Vec3::splat(40.0),
+        range: f32::INFINITY,
+        radius: 0.05,
+    };
+    scene.lights.push(Light { name: "lamp".into(), source: LightSource::Point(lamp) });
+    let bake = baked(&scene, &settings(16.0, Quality::Draft));
+    let report = &bake.report;
+    println!("{} texels, {} valid, {} invalid", report.texels, report.valid_texels, report.invalid_texels);
+    println!("{:?} {:?}", report.seams, report.warnings);
+    for (mesh, uv) in bake.uvs.iter().enumerate().filter(|(mesh, _)| *mesh < 5) {
+        let uv = uv.as_ref().unwrap();
+        assert_eq!(uv.origin, radiosity::lightmap::UvOrigin::Kept, "{}", scene.meshes[mesh].name);
+    }
+    assert!(report.warnings.is_empty(), "{:?}", report.warnings);
+    assert!(report.seams.pairs > 0 && report.seams.step_after <= report.seams.step_before);
+}
