@@ -99,6 +99,7 @@ fn sums<'p, P: SurfacePoint>(
         partials[0][0] += point * basis[0][i];
         partials[1][0] += point * basis[1][i];
     }
-    let [[point, _], [first, _]] = P::project_partials(partials);
-    [point, first]
+    // Divided, not multiplied by the reciprocal: a control point comes out as it is.
+    let [_, [first, _]] = P::project_partials(partials);
+    [partials[0][0].project(), first]
 }

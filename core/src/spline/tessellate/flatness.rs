@@ -6,13 +6,17 @@ use crate::math::{Real, Vector};
 
 impl<R: Real> Tolerance<R> {
     /// Whether an edge inside the surface is near enough to the curve through its middle, and its normals to each other.
-    pub(super) fn holds_inside<V: Vector<Scalar = R>>(&self, [a, middle, b]: [&Vertex<V>; 3]) -> bool {
+    pub(super) fn holds_inside<V: Vector<Scalar = R>>(&self, edge: [&Vertex<V>; 3]) -> bool {
+        let [a, middle, b] = edge.map(|vertex| vertex.normal);
+        let turns = [(a, b), (a, middle), (middle, b)].iter().any(|&(a, b)| angle_above(a, b, self.angle));
+        !turns && self.holds_chord_inside(edge)
+    }
+
+    /// Whether it is near enough to the curve.
+    pub(super) fn holds_chord_inside<V: Vector<Scalar = R>>(&self, [a, middle, b]: [&Vertex<V>; 3]) -> bool {
         let step = [0, 1].map(|k| b.uv[k] - a.uv[k]);
-        let [from, to] = [a, b].map(|end| end.du * step[0] + end.dv * step[1]);
-        let turn = angle_above(a.normal, b.normal, self.angle)
-            || angle_above(a.normal, middle.normal, self.angle)
-            || angle_above(middle.normal, b.normal, self.angle);
-        !turn && self.holds_chord([a.point, middle.point, b.point], [from, to])
+        let tangents = [a, b].map(|end| end.du * step[0] + end.dv * step[1]);
+        self.holds_chord([a.point, middle.point, b.point], tangents)
     }
 
     /// Whether an edge is near enough to a curve with these derivatives at its ends, in whichever direction it is seen.
@@ -33,16 +37,16 @@ impl<R: Real> Tolerance<R> {
     }
 
     /// Whether a triangle is near enough to the point of the surface at its center.
-    pub(super) fn holds_in_triangle<V: Vector<Scalar = R>>(
-        &self,
-        corners: [&Vertex<V>; 3],
-        center: &Vertex<V>,
-    ) -> bool {
+    pub(super) fn holds_distance<V: Vector<Scalar = R>>(&self, corners: [&Vertex<V>; 3], center: &Vertex<V>) -> bool {
         let [a, b, c] = corners.map(|corner| corner.point);
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        let distance = (center.point - a).dot(normal).abs();
+        (center.point - a).dot(normal).abs() <= self.chord
+    }
+
+    /// Whether the mean of its normals is near enough to the normal there.
+    pub(super) fn holds_normal<V: Vector<Scalar = R>>(&self, corners: [&Vertex<V>; 3], center: &Vertex<V>) -> bool {
         let mean = corners[0].normal + corners[1].normal + corners[2].normal;
-        distance <= self.chord && !angle_above(mean, center.normal, self.angle * R::from_f64(0.25))
+        !angle_above(mean, center.normal, self.angle * R::from_f64(0.25))
     }
 }
 

@@ -9,6 +9,11 @@ use crate::spline::{BSplineSurface, Direction, Scalar, Side, SurfacePoint};
 
 /// How often a piece between knots is halved at most.
 const HALVINGS: i32 = 10;
+/// How often it is at most for the sake of normals where an edge touches the border. A border that is straight stays
+/// whole, even if normals turn along it: then no number of halvings is enough.
+const HALVINGS_AT_BORDER: i32 = 6;
+/// The finest edges there over the finest ones elsewhere.
+const AT_BORDER: usize = 1 << (HALVINGS - HALVINGS_AT_BORDER);
 const NONE: u32 = u32::MAX;
 
 /// A point of the surface.
@@ -19,6 +24,8 @@ pub(super) struct Vertex<V: Vector> {
     pub du: V,
     pub dv: V,
     pub normal: V,
+    /// Whether it lies on an edge of the surface.
+    pub border: bool,
 }
 
 /// Between two vertices.
@@ -61,6 +68,8 @@ pub(super) struct Refiner<'a, P: SurfacePoint> {
     middle: [Scalar<P>; 2],
     /// Edges not longer than this in both parameters are left as they are.
     finest: [Scalar<P>; 2],
+    /// The points to which edges of the surface collapse.
+    poles: [Option<P::Point>; 4],
 }
 
 impl<'a, P: SurfacePoint> Refiner<'a, P> {
@@ -77,7 +86,9 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
             })
         });
         let (vertices, edges, triangles) = (Vec::new(), Vec::new(), Vec::new());
-        let mut refiner = Self { surface, tolerance, vertices, edges, triangles, middle, finest };
+        let poles = [None; 4];
+        let mut refiner = Self { surface, tolerance, vertices, edges, triangles, middle, finest, poles };
+        refiner.poles = [Side::Bottom, Side::Right, Side::Top, Side::Left].map(|side| refiner.pole(side));
         refiner.add_grid(&breaks);
         refiner
     }
@@ -87,6 +98,20 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         while self.halve_all() {}
         let triangles = self.triangles.iter().map(|triangle| triangle.vertices).collect();
         Refined { vertices: self.vertices, triangles }
+    }
+
+    /// The point to which an edge of the surface collapses, if it does.
+    fn pole(&self, side: Side) -> Option<P::Point> {
+        let knots = self.surface.knots_of(side);
+        let at = |t: Scalar<P>| self.surface.edge(side, t)[0];
+        let [start, _] = knots.domain();
+        let first = at(start);
+        let shares = [0.23, 0.5, 0.81, 1.0].map(Scalar::<P>::from_f64);
+        let mut places = knots.spans().flat_map(|span| {
+            let [low, high] = [knots.knots()[span], knots.knots()[span + 1]];
+            shares.map(|share| low + (high - low) * share)
+        });
+        places.all(|t| self.is_at(at(t), first)).then_some(first)
     }
 
     fn add_grid(&mut self, [us, vs]: &[Vec<Scalar<P>>; 2]) {
@@ -129,8 +154,9 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         let normal = self.normal(uv, du, dv);
         if let Some(side) = side {
             [point, _] = self.surface.edge(side, if is_along_u(side) { u } else { v });
+            point = self.poles.iter().flatten().copied().find(|&pole| self.is_at(point, pole)).unwrap_or(point);
         }
-        Vertex { uv, point, du, dv, normal }
+        Vertex { uv, point, du, dv, normal, border: side.is_some() }
     }
 
     fn normal(&self, [u, v]: [Scalar<P>; 2], du: P::Point, dv: P::Point) -> P::Point {
@@ -147,13 +173,29 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         let [a, b] = ends.map(|end| &self.vertices[end as usize]);
         let half = Scalar::<P>::from_f64(0.5);
         let middle = self.vertex([0, 1].map(|k| (a.uv[k] + b.uv[k]) * half), side);
-        let divisible = (0..2).any(|k| (a.uv[k] - b.uv[k]).abs() > self.finest[k]);
+        let divisible = self.is_divisible([a, b], 1);
         let holds = match side {
             Some(side) => self.holds_at_border(side, [a, &middle, b]),
+            None if (a.border || b.border) && !self.is_divisible([a, b], AT_BORDER) => {
+                self.tolerance.holds_chord_inside([a, &middle, b])
+            }
             None => self.tolerance.holds_inside([a, &middle, b]),
         };
         self.edges.push(Edge { ends, side, middle, coarse: divisible && !holds, divisible, halves: [NONE; 3] });
         self.edges.len() as u32 - 1
+    }
+
+    /// Whether an edge is longer than the finest ones times a factor, in each parameter that changes along it.
+    fn is_divisible(&self, [a, b]: [&Vertex<P::Point>; 2], factor: usize) -> bool {
+        let extent = [0, 1].map(|k| (a.uv[k] - b.uv[k]).abs());
+        let least = self.finest.map(|finest| finest * Scalar::<P>::from_usize(factor));
+        extent != [Scalar::<P>::ZERO; 2] && (0..2).all(|k| extent[k] == Scalar::<P>::ZERO || extent[k] > least[k])
+    }
+
+    /// Whether two points are the same to rounding.
+    fn is_at(&self, a: P::Point, b: P::Point) -> bool {
+        let size = b.to_array().into_iter().fold(Scalar::<P>::ZERO, |size, x| size.max(x.abs()));
+        (a - b).length() <= size * Scalar::<P>::EPSILON * Scalar::<P>::from_f64(64.0)
     }
 
     fn holds_at_border(&self, side: Side, [a, middle, b]: [&Vertex<P::Point>; 3]) -> bool {
@@ -200,14 +242,23 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         let corners = triangle.vertices.map(|vertex| &self.vertices[vertex as usize]);
         let third = Scalar::<P>::from_f64(1.0 / 3.0);
         let center = [0, 1].map(|k| (corners[0].uv[k] + corners[1].uv[k] + corners[2].uv[k]) * third);
-        if self.tolerance.holds_in_triangle(corners, &self.vertex(center, None)) {
-            return;
-        }
+        let center = self.vertex(center, None);
+        let is_at_border = corners.iter().filter(|corner| corner.border).count() > 1;
+        let factor =
+            match (self.tolerance.holds_distance(corners, &center), self.tolerance.holds_normal(corners, &center)) {
+                (true, true) => return,
+                (true, false) if is_at_border => AT_BORDER,
+                _ => 1,
+            };
         let length = |edge: u32| {
             let [a, b] = self.edges[edge as usize].ends.map(|end| self.vertices[end as usize].point);
             (b - a).length_squared()
         };
-        let may = |edge: &u32| self.edges[*edge as usize].side.is_none() && self.edges[*edge as usize].divisible;
+        let may = |edge: &u32| {
+            let Edge { ends, side, divisible, .. } = &self.edges[*edge as usize];
+            let ends = ends.map(|end| &self.vertices[end as usize]);
+            side.is_none() && *divisible && self.is_divisible(ends, factor)
+        };
         let longest = triangle.edges.into_iter().filter(may).reduce(|a, b| if length(b) > length(a) { b } else { a });
         if let Some(edge) = longest {
             self.edges[edge as usize].coarse = true;
