@@ -64,3 +64,40 @@ fn differentiate<R: Real>(values: &mut [R; MAX_DEGREE + 1], local: &[R], p: usiz
     }
     values[m] = saved;
 }
+
+/// The same with the degree `M - 1` known when compiled: loops vanish.
+#[inline(always)]
+pub(super) fn basis_of_order<R: Real, const M: usize, const N: usize>(local: &[R], t: R) -> [[R; M]; N] {
+    let local = &local[..2 * (M - 1)];
+    let mut basis = [[R::ZERO; M]; N];
+    let mut values = [R::ZERO; M];
+    values[0] = R::ONE;
+    for m in 0..M {
+        if m > 0 {
+            let mut saved = R::ZERO;
+            for r in 0..m {
+                let (left, right) = (local[M - 1 - m + r], local[M - 1 + r]);
+                let share = (t - left) / (right - left);
+                let before = values[r];
+                values[r] = saved + (R::ONE - share) * before;
+                saved = share * before;
+            }
+            values[m] = saved;
+        }
+        let order = M - 1 - m;
+        if order < N {
+            basis[order] = values;
+            for m in m + 1..M {
+                let mut saved = R::ZERO;
+                for r in 0..m {
+                    let (left, right) = (local[M - 1 - m + r], local[M - 1 + r]);
+                    let share = R::from_usize(m) * basis[order][r] / (right - left);
+                    basis[order][r] = saved - share;
+                    saved = share;
+                }
+                basis[order][m] = saved;
+            }
+        }
+    }
+    basis
+}

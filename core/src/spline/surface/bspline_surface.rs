@@ -1,6 +1,6 @@
 //! B-spline surfaces and NURBS: tensor products of B-spline curves.
 
-use super::basis::{Basis, basis_at};
+use super::basis::{Basis, basis_at, basis_of_order};
 use super::{Curvature, SurfaceJet, SurfacePoint};
 use crate::math::{Real, VectorSpace};
 use crate::spline::control_point::{check_degree, check_points};
@@ -95,7 +95,7 @@ impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
     /// The point at `u` and `v`.
     #[inline]
     pub fn point(&self, u: P::Scalar, v: P::Scalar) -> P::Point {
-        self.sum(u, v).project()
+        self.partials_in::<1>(self.spans_at(u, v), u, v)[0][0].project()
     }
 
     /// The point with its first derivatives by `u` and by `v`.
@@ -149,24 +149,46 @@ impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
         self.at(u, v).curvature()
     }
 
-    /// The sum of control points times basis functions.
-    #[inline]
-    fn sum(&self, u: P::Scalar, v: P::Scalar) -> P {
-        let spans = self.spans_at(u, v);
-        let along: Basis<_, 1> = basis_at(&self.knots[0], spans[0], u);
-        let across: Basis<_, 1> = basis_at(&self.knots[1], spans[1], v);
-        let mut sum = P::default();
-        for (row, &weight) in self.rows(spans).zip(&across[0]) {
-            let mut of_row = P::default();
-            row.iter().zip(&along[0]).for_each(|(&point, &weight)| of_row += point * weight);
-            sum += of_row * weight;
-        }
-        sum
-    }
-
     /// The derivatives in the space of the control points.
     #[inline]
     fn partials_in<const N: usize>(&self, spans: [usize; 2], u: P::Scalar, v: P::Scalar) -> [[P; N]; N] {
+        match self.knots.map(|knots| knots.degree()) {
+            [1, 1] => self.partials_of_order::<N, 2, 2>(spans, u, v),
+            [2, 1] => self.partials_of_order::<N, 3, 2>(spans, u, v),
+            [2, 2] => self.partials_of_order::<N, 3, 3>(spans, u, v),
+            [2, 3] => self.partials_of_order::<N, 3, 4>(spans, u, v),
+            [3, 3] => self.partials_of_order::<N, 4, 4>(spans, u, v),
+            _ => self.partials_of_any_order::<N>(spans, u, v),
+        }
+    }
+
+    /// The same for the usual degrees, `A - 1` along `u` and `B - 1` along `v`.
+    #[inline]
+    fn partials_of_order<const N: usize, const A: usize, const B: usize>(
+        &self,
+        [i, j]: [usize; 2],
+        u: P::Scalar,
+        v: P::Scalar,
+    ) -> [[P; N]; N] {
+        let along = basis_of_order::<_, A, N>(self.knots[0].around(i), u);
+        let across = basis_of_order::<_, B, N>(self.knots[1].around(j), v);
+        let columns = self.columns();
+        let mut partials = [[P::default(); N]; N];
+        let mut start = (j + 1 - B) * columns + i + 1 - A;
+        for k in 0..B {
+            let row = &self.points[start..start + A];
+            start += columns;
+            for a in 0..N {
+                let mut of_row = row[0] * along[a][0];
+                (1..A).for_each(|i| of_row += row[i] * along[a][i]);
+                (0..N - a).for_each(|b| partials[a][b] += of_row * across[b][k]);
+            }
+        }
+        partials
+    }
+
+    /// The same for all degrees.
+    fn partials_of_any_order<const N: usize>(&self, spans: [usize; 2], u: P::Scalar, v: P::Scalar) -> [[P; N]; N] {
         let along: Basis<_, N> = basis_at(&self.knots[0], spans[0], u);
         let across: Basis<_, N> = basis_at(&self.knots[1], spans[1], v);
         let mut partials = [[P::default(); N]; N];
