@@ -164,11 +164,10 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
             }
             let [u, v] = [column, row].map(|along| f32::from(along) / f32::from(cell.width));
             let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
-            let mix = |pick: fn(&Gathered) -> f32| {
-                [a, b, c, d].iter().zip(weights).map(|(node, weight)| pick(node) * weight).sum::<f32>()
-            };
-            let irradiance = [a, b, c, d].iter().zip(weights).map(|(node, weight)| node.irradiance * weight).sum();
-            let (variance, distance) = (mix(|node| node.variance), mix(|node| node.distance));
+            let nodes = || [&a, &b, &c, &d].into_iter().zip(weights);
+            let irradiance = nodes().map(|(node, weight)| node.irradiance * weight).sum();
+            let variance = nodes().map(|(node, weight)| node.variance * weight * weight).sum();
+            let distance = nodes().map(|(node, weight)| node.distance * weight).sum();
             gathered[texel] = Gathered { irradiance, variance, distance, rays: 0, width: cell.width as u8 };
         }
     }
