@@ -50,6 +50,7 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
             }
             cells = smaller;
         }
+        self.stand(&kept, &mut nodes.gathered);
         self.interpolate(&kept, &mut nodes.gathered);
         let is_left = |&texel: &usize| self.is_valid[texel] && nodes.gathered[texel].width == 0;
         let rest = (0..nodes.gathered.len()).filter(is_left).collect();
@@ -92,6 +93,17 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
             }
         }
         self.add(wanted, 1, nodes, workers, progress)
+    }
+
+    /// Lets nodes stand for the widest of their cells that were kept; those of cells that were split are like any other
+    /// texel, and filtered like it.
+    fn stand(&self, kept: &[Cell], gathered: &mut [Gathered]) {
+        gathered.iter_mut().for_each(|node| node.width = node.width.min(1));
+        for cell in kept {
+            for corner in self.corners(cell).into_iter().flatten() {
+                gathered[corner].width = gathered[corner].width.max(cell.width as u8);
+            }
+        }
     }
 
     fn widest_cells(&self) -> Vec<Cell> {

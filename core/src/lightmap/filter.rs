@@ -73,7 +73,11 @@ fn filtered(index: usize, gathered: &[Gathered], variances: &[f32], texels: &Tex
         variance += variances[other] * weight * weight;
         weights += weight;
     });
-    Smooth { irradiance: sum / weights, variance: variance / (weights * weights) }
+    let apart = variance / (weights * weights);
+    // The texels of a cell have their noise in common; but filtering adds none.
+    let side = f32::from(gathered[index].width.max(1));
+    let variance = (apart * side * side).min(variances[index].max(apart));
+    Smooth { irradiance: sum / weights, variance }
 }
 
 /// Visits the texels that are mixed into one, each with its weight: at least itself.
@@ -86,8 +90,9 @@ pub fn stencil(
 ) {
     let (own, texel) = (&gathered[index], &texels.list[index]);
     let sigma = (WIDTH * own.distance / math::sqrt(texel.area.max(1e-12))).min(WIDEST);
-    // Interpolated values and nodes of wide cells are smooth already.
-    if own.width != 1 || sigma < 0.3 {
+    // Between the corners of cells wider than the filter light is smooth already.
+    let is_wide = own.width != 1 && f32::from(own.width) > sigma;
+    if is_wide || sigma < 0.3 {
         return visit(index, 1.0);
     }
     let reach = (math::ceil(2.0 * sigma) as i32).min(REACH);

@@ -12,7 +12,7 @@ use crate::progress::{Cancelled, Progress};
 const FIRST_ROUND: u32 = 2;
 
 /// So many rays bring a texel just to the error that is wanted; those that are worse keep a larger one with more rays.
-const BALANCED: f32 = 256.0;
+const BALANCED: f32 = 160.0;
 
 impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
     /// Doubles the rays of nodes, round after round, until they are enough.
