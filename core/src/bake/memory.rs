@@ -13,9 +13,9 @@ use crate::scene::{Receiver, Scene};
 const TRIANGLE: u64 = 420;
 /// For each texel of an image that is being worked on: what covers it, its index, the finished lightmap with its states,
 /// the texel, direct, incident and gathered light, its patch and the lists that make these.
-const TEXEL: u64 = 259;
+const TEXEL: u64 = 230;
 /// The same where there are several parts, each of which keeps less.
-const TEXEL_OF_PART: u64 = 190;
+const TEXEL_OF_PART: u64 = 215;
 /// For each texel of a finished lightmap.
 const FINISHED: u64 = 29;
 /// Texels of finished lightmaps that whoever takes them from [`super::bake_into`] may keep.
