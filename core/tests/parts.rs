@@ -95,8 +95,7 @@ fn parts_and_threads_do_not_matter() {
     let least = in_parts(&scene);
     let [one, four] = [1, 4].map(|threads| baked(&scene, &BakeSettings { threads, ..least.clone() }));
     assert_eq!(one.images, four.images);
-    let with_more = |percent: u64| BakeSettings { memory_bytes: least.memory_bytes / 100 * percent, ..least.clone() };
-    let other = [105, 115].map(|percent| baked(&scene, &with_more(percent)));
+    let other = [least.memory_bytes / 100 * 115, u64::MAX].map(|memory| baked(&scene, &small_images(memory)));
     let parts = [&one, &other[0], &other[1]].map(|bake| bake.report.parts);
     assert!(parts.is_sorted_by(|a, b| a > b), "{parts:?} parts");
     for other in &other {
@@ -121,10 +120,11 @@ fn parts_share_one_measure() {
         assert!((0.8..1.25).contains(&ratio), "{ratio}");
     }
     // The seams that one bake solves are those that the other solves and those that it left.
-    let left = many.report.warnings.iter().find(|warning| warning.contains("different parts")).expect("some are left");
+    let left =
+        many.report.warnings.iter().find(|warning| warning.contains("points at which seams")).expect("some are left");
     let numbers: Vec<usize> = left.split(' ').filter_map(|word| word.parse().ok()).collect();
     assert!(numbers[0] > 0 && numbers[0] + many.report.seams.pairs == numbers[1], "{left}");
-    assert!((numbers[1] as f64 / one.report.seams.pairs as f64 - 1.0).abs() < 0.02, "{left}");
+    assert!((numbers[1] as f64 / one.report.seams.pairs as f64 - 1.0).abs() < 0.05, "{left}");
 }
 
 /// Images that are handed over are those that are collected, in as many parts as in one.
