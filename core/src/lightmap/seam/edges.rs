@@ -1,6 +1,7 @@
 //! The edges at which charts end.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use glam::{Vec2, Vec3};
 
@@ -62,11 +63,11 @@ impl Edge {
     }
 }
 
-/// All edges that no other triangle shares in the lightmaps whose texels are here.
-pub(super) fn open(world: &World, texels: &Texels) -> Vec<Edge> {
+/// All edges that no other triangle shares in these lightmaps.
+pub(super) fn open(world: &World, texels: &Texels, images: &Range<usize>) -> Vec<Edge> {
     let mut keys: Vec<([u32; 5], u32)> = Vec::new();
-    let is_here = |triangle: usize| texels.here.contains(&(texels.places[triangle].image as usize));
-    for (triangle, place) in texels.places.iter().enumerate().filter(|(triangle, _)| is_here(*triangle)) {
+    let is_wanted = |triangle: usize| images.contains(&(texels.places[triangle].image as usize));
+    for (triangle, place) in texels.places.iter().enumerate().filter(|(triangle, _)| is_wanted(*triangle)) {
         let bits = place.corners.map(|corner| corner.to_array().map(f32::to_bits));
         keys.extend((0..3).map(|first| {
             let (a, b) = (bits[first], bits[(first + 1) % 3]);
