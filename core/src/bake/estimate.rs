@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use super::EstimatedError;
+use super::{BakeSettings, EstimatedError, Keep};
 use crate::lightmap::{DirectError, Smooth, Texel, Texels};
 use crate::math;
 
@@ -104,19 +104,21 @@ impl Foreseen {
 }
 
 /// What the user should know where the error is larger than wanted.
-pub(super) fn warning(error: &EstimatedError, wanted: f32, texels_per_meter: f32) -> Option<String> {
-    let EstimatedError { rms, noise, .. } = *error;
+pub(super) fn warning(error: &EstimatedError, settings: &BakeSettings, texels_per_meter: f32) -> Option<String> {
+    let (EstimatedError { rms, noise, .. }, wanted) = (*error, settings.target_error);
     if wanted <= 0.0 || rms <= wanted {
         return None;
     }
     let percent = |error: f32| format!("{:.1} %", 100.0 * error);
-    let remedy = if noise > wanted {
-        String::from("no texel gets more rays than that; choose a higher quality")
-    } else {
-        format!(
+    let remedy = match settings.keep {
+        _ if noise <= wanted => format!(
             "the rest lies between texels, mostly at edges of shadows, where no rays help: bake more than \
              {texels_per_meter:.1} texels per meter"
-        )
+        ),
+        Keep::Lightmaps => "no texel gets more rays than that; choose a higher quality".into(),
+        Keep::Transport => {
+            "where the transport is kept, all texels have as many rays as the quality says; choose a higher one".into()
+        }
     };
     let [rms, wanted, noise] = [rms, wanted, noise].map(percent);
     Some(format!("the estimated error is {rms} instead of {wanted}; noise is {noise}: {remedy}"))
@@ -185,10 +187,16 @@ mod tests {
 
     #[test]
     fn warnings_tell_the_remedy() {
-        let says = |noise, rms, wanted| warning(&EstimatedError { rms, noise, bias: 0.0 }, wanted, 8.0);
+        let says = |noise, rms, target_error| {
+            let settings = BakeSettings { target_error, ..Default::default() };
+            warning(&EstimatedError { rms, noise, bias: 0.0 }, &settings, 8.0)
+        };
         assert_eq!(says(0.01, 0.019, 0.02), None);
         assert_eq!(says(0.01, 0.1, 0.0), None);
         assert!(says(0.01, 0.1, 0.02).is_some_and(|text| text.contains("8.0 texels per meter")));
         assert!(says(0.03, 0.04, 0.02).is_some_and(|text| text.contains("higher quality")));
+        let keeping = BakeSettings { target_error: 0.02, keep: Keep::Transport, ..Default::default() };
+        let noisy = EstimatedError { rms: 0.04, noise: 0.03, bias: 0.0 };
+        assert!(warning(&noisy, &keeping, 8.0).is_some_and(|text| text.contains("transport is kept")));
     }
 }

@@ -180,7 +180,7 @@ pub(super) fn warnings(
             "{lowered} of {patches} patches reflect more than {LARGEST_REFLECTANCE} and were taken to reflect that; lower the base color of their materials",
         ));
     }
-    warnings.extend(warning(&tally.error, settings.target_error, layout.texels_per_meter));
+    warnings.extend(warning(&tally.error, settings, layout.texels_per_meter));
     if parts > 1 {
         warnings.push(format!(
             "the images did not fit into the memory together and were baked in {parts} parts: where surfaces in different parts lie close together, their light on each other is as coarse as patches of {cell} x {cell} texels; allow more memory to bake them at once"
