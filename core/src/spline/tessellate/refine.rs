@@ -12,6 +12,8 @@ const HALVINGS: i32 = 10;
 /// How often it is at most for the sake of normals where an edge touches the border. A border that is straight stays
 /// whole, even if normals turn along it: then no number of halvings is enough.
 const HALVINGS_AT_BORDER: i32 = 6;
+/// How often all triangles are looked at; twice the halvings in both directions.
+const ROUNDS: i32 = 4 * HALVINGS;
 /// The finest edges there over the finest ones elsewhere.
 const AT_BORDER: usize = 1 << (HALVINGS - HALVINGS_AT_BORDER);
 const NONE: u32 = u32::MAX;
@@ -70,6 +72,8 @@ pub(super) struct Refiner<'a, P: SurfacePoint> {
     finest: [Scalar<P>; 2],
     /// The points to which edges of the surface collapse.
     poles: [Option<P::Point>; 4],
+    /// Whether no more edges are to be halved.
+    is_last: bool,
 }
 
 impl<'a, P: SurfacePoint> Refiner<'a, P> {
@@ -87,7 +91,8 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         });
         let (vertices, edges, triangles) = (Vec::new(), Vec::new(), Vec::new());
         let poles = [None; 4];
-        let mut refiner = Self { surface, tolerance, vertices, edges, triangles, middle, finest, poles };
+        let mut refiner =
+            Self { surface, tolerance, vertices, edges, triangles, middle, finest, poles, is_last: false };
         refiner.poles = [Side::Bottom, Side::Right, Side::Top, Side::Left].map(|side| refiner.pole(side));
         refiner.add_grid(&breaks);
         refiner
@@ -95,6 +100,14 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
 
     /// Until nothing is too coarse.
     pub fn run(mut self) -> Refined<P::Point> {
+        for _ in 0..ROUNDS {
+            if !self.halve_all() {
+                break;
+            }
+        }
+        // What is not halved by now stays whole; triangles beside halved edges are still cut, so that nothing gapes.
+        self.is_last = true;
+        self.edges.iter_mut().for_each(|edge| edge.coarse &= edge.halves[0] != NONE);
         while self.halve_all() {}
         let triangles = self.triangles.iter().map(|triangle| triangle.vertices).collect();
         Refined { vertices: self.vertices, triangles }
@@ -181,7 +194,14 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
             }
             None => self.tolerance.holds_inside([a, &middle, b]),
         };
-        self.edges.push(Edge { ends, side, middle, coarse: divisible && !holds, divisible, halves: [NONE; 3] });
+        self.edges.push(Edge {
+            ends,
+            side,
+            middle,
+            coarse: divisible && !holds && !self.is_last,
+            divisible,
+            halves: [NONE; 3],
+        });
         self.edges.len() as u32 - 1
     }
 
@@ -219,7 +239,7 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         let before = core::mem::take(&mut self.triangles);
         let mut changed = false;
         for mut triangle in before {
-            if !triangle.flat && !self.is_coarse(&triangle) {
+            if !triangle.flat && !self.is_last && !self.is_coarse(&triangle) {
                 self.judge(&triangle);
                 triangle.flat = true;
             }
