@@ -45,64 +45,64 @@ fn columns<T>(control: &[Homogeneous<DVec3>], make: impl Fn(DVec3, f64) -> T) ->
     (0..SIZE[0]).map(column).collect()
 }
 
-fn surfaces(c: &mut Criterion) {
-    let (control, uv) = (control(), parameters());
+/// The same surface as each has it.
+struct Same {
+    own: OwnedSurface<Homogeneous<DVec3>>,
+    single: OwnedSurface<Homogeneous<Vec3>>,
+    curvo: NurbsSurface3D<f64>,
+    truck: TruckNurbs<Vector4>,
+}
+
+fn same() -> Same {
+    let control = control();
     let [u, v] = SIZE.map(clamped);
     let own = OwnedSurface::new([u.clone(), v.clone()], [DEGREE; 2], control.clone()).unwrap();
-    let own = own.surface();
-    let single: Vec<_> = control.iter().map(|p| Homogeneous { scaled: p.scaled.as_vec3(), weight: p.weight as f32 }).collect();
-    let knots = [&u, &v].map(|knots| knots.iter().map(|&k| k as f32).collect::<Vec<_>>());
-    let single: OwnedSurface<Homogeneous<Vec3>> = OwnedSurface::new(knots, [DEGREE; 2], single).unwrap();
-    let single = single.surface();
-    let curvo = NurbsSurface3D::new(
-        DEGREE,
-        DEGREE,
-        u.clone(),
-        v.clone(),
-        columns(&control, |p, w| Point4::new(p.x, p.y, p.z, w)),
-    );
-    let truck_points = columns(&control, |p, w| Vector4::new(p.x, p.y, p.z, w));
-    let truck = TruckNurbs::new(TruckBSpline::new((KnotVec::from(u), KnotVec::from(v)), truck_points));
-    let [a, b] = [own.point(0.3, 0.6), own.normal(0.3, 0.6)];
-    let (p, q) = (curvo.point_at(0.3, 0.6), truck.subs(0.3, 0.6));
+    let single = control.iter().map(|p| Homogeneous { scaled: p.scaled.as_vec3(), weight: p.weight as f32 }).collect();
+    let knots = [&u, &v].map(|knots| knots.iter().map(|&k| k as f32).collect());
+    let single = OwnedSurface::new(knots, [DEGREE; 2], single).unwrap();
+    let points = columns(&control, |p, w| Point4::new(p.x, p.y, p.z, w));
+    let curvo = NurbsSurface3D::new(DEGREE, DEGREE, u.clone(), v.clone(), points);
+    let points = columns(&control, |p, w| Vector4::new(p.x, p.y, p.z, w));
+    let truck = TruckNurbs::new(TruckBSpline::new((KnotVec::from(u), KnotVec::from(v)), points));
+    let [a, b] = [own.surface().point(0.3, 0.6), own.surface().normal(0.3, 0.6)];
+    let (p, q, n) = (curvo.point_at(0.3, 0.6), truck.subs(0.3, 0.6), truck.normal(0.3, 0.6));
     assert!((a - DVec3::new(p.x, p.y, p.z)).length() + (a - DVec3::new(q.x, q.y, q.z)).length() < 1e-12);
-    let n = truck.normal(0.3, 0.6);
     assert!((b - DVec3::new(n.x, n.y, n.z)).length() < 1e-12);
+    Same { own, single, curvo, truck }
+}
 
+fn points(c: &mut Criterion) {
+    let (Same { own, single, curvo, truck }, uv) = (same(), parameters());
+    let (own, single) = (own.surface(), single.surface());
     let mut group = c.benchmark_group("bicubic NURBS surface, 8 x 7 points: 1000 points");
     group.bench_function("radiosity f64", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(own.point(u, v)))));
     group.bench_function("radiosity f32", |b| {
         b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(single.point(u as f32, v as f32))));
     });
     group.bench_function("curvo", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(curvo.point_at(u, v)))));
-    group.bench_function("curvo evaluator", |b| {
-        let mut evaluator = curvo.evaluator();
-        b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(evaluator.point_at(u, v))));
-    });
     group.bench_function("truck", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(truck.subs(u, v)))));
     group.finish();
+}
 
+fn normals(c: &mut Criterion) {
+    let (Same { own, curvo, truck, .. }, uv) = (same(), parameters());
+    let own = own.surface();
     let mut group = c.benchmark_group("bicubic NURBS surface, 8 x 7 points: 1000 normals");
     group.bench_function("radiosity f64", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(own.normal(u, v)))));
     group.bench_function("curvo", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(curvo.normal_at(u, v)))));
-    group.bench_function("curvo evaluator", |b| {
-        let mut evaluator = curvo.evaluator();
-        b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(evaluator.normal_at(u, v))));
-    });
     group.bench_function("truck", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(truck.normal(u, v)))));
     group.finish();
+}
 
+/// Each as it is made to be used: the numbers of triangles stand beside the times.
+fn tessellation(c: &mut Criterion) {
+    let Same { own, curvo, truck, .. } = same();
     let mut group = c.benchmark_group("bicubic NURBS surface, 8 x 7 points: tessellation");
     let tolerance = Tolerance::new(5e-3, 0.2).unwrap();
-    let triangles = tessellate(&own, &tolerance, ChartScale::Area).triangles.len();
-    group.bench_function(format!("radiosity, 5 mm, {triangles} triangles"), |b| {
-        b.iter(|| tessellate(&own, &tolerance, ChartScale::Area));
-    });
-    let options = || AdaptiveTessellationOptions::<f64>::default();
-    let triangles = curvo.tessellate(Some(options())).faces().len();
-    group.bench_function(format!("curvo, as it is by default, {triangles} triangles"), |b| {
-        b.iter(|| curvo.tessellate(Some(options())));
-    });
+    let cut = || tessellate(&own.surface(), &tolerance, ChartScale::Area);
+    group.bench_function(format!("radiosity, 5 mm, {} triangles", cut().triangles.len()), |b| b.iter(cut));
+    let default = || curvo.tessellate(Some(AdaptiveTessellationOptions::<f64>::default()));
+    group.bench_function(format!("curvo, by default, {} triangles", default().faces().len()), |b| b.iter(default));
     let grid = || {
         let (us, vs) = truck.parameter_division(((0.0, 1.0), (0.0, 1.0)), 5e-3);
         let at = vs.iter().flat_map(|&v| us.iter().map(move |&u| (u, v)));
@@ -113,5 +113,5 @@ fn surfaces(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, surfaces);
+criterion_group!(benches, points, normals, tessellation);
 criterion_main!(benches);
