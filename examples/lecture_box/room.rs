@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use radiosity::patch::{self, Element, Patch, uniform};
-use radiosity::spline::{SplineError, BezierSurface};
+use radiosity::spline::{BezierSurface, SplineError};
 
 pub type Shape<'a> = patch::Shape<'a, DVec3, DVec3>;
 

@@ -169,6 +169,14 @@ impl<'a, P: ControlPoint> BSpline<'a, P> {
         Jet { point: of(0), first: of(1), second: of(2) }
     }
 
+    /// Without the second derivative.
+    #[inline(always)]
+    fn velocity_of<const N: usize>(&self, degree: usize, span: usize, t: P::Scalar) -> Jet<P> {
+        let window = self.knots.around(span);
+        let of = |k| self.weighted::<N>(span, degree, &cox_de_boor_derivative(window, degree, k, t));
+        Jet { point: of(0), first: of(1), second: P::default() }
+    }
+
     /// The sum of the control points of a span times `factors`.
     #[inline(always)]
     fn weighted<const N: usize>(&self, span: usize, degree: usize, factors: &[P::Scalar; N]) -> P {
@@ -193,6 +201,16 @@ impl<P: ControlPoint> Curve for BSpline<'_, P> {
     #[inline]
     fn point(&self, t: P::Scalar) -> P::Point {
         self.point(t)
+    }
+    fn speed(&self, t: P::Scalar) -> P::Scalar {
+        let t = self.wrapped(t);
+        let span = self.knots.span(t);
+        let jet = match self.degree() {
+            2 => self.velocity_of::<3>(2, span, t),
+            3 => self.velocity_of::<4>(3, span, t),
+            degree => self.velocity_of::<MAX_ORDER>(degree, span, t),
+        };
+        P::project_jet(jet).first.length()
     }
     fn next_break(&self, t: P::Scalar) -> P::Scalar {
         self.knots.next_break(t)

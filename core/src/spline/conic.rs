@@ -68,11 +68,7 @@ impl<V: VectorSpace> Circle<V> {
     /// # Errors
     ///
     /// Where the number of points is not an odd one of at least 3.
-    pub fn arcs(
-        &self,
-        [from, to]: [V::Scalar; 2],
-        points: &mut [Homogeneous<V>],
-    ) -> Result<(), SplineError> {
+    pub fn arcs(&self, [from, to]: [V::Scalar; 2], points: &mut [Homogeneous<V>]) -> Result<(), SplineError> {
         let arcs = points.len() / 2;
         check_buffer(points.len(), 2 * arcs.max(1) + 1)?;
         let angle = |i: usize| from + (to - from) * (V::Scalar::from_usize(i) / V::Scalar::from_usize(arcs));
@@ -149,9 +145,5 @@ impl Conic {
 /// "projective discriminant" of Liming 1944, Farin section 13.
 pub fn conic<V: VectorSpace>([start, tip, end]: [V; 3], sharpness: V::Scalar) -> [Homogeneous<V>; 3] {
     let one = V::Scalar::ONE;
-    [
-        Homogeneous::new(start, one),
-        Homogeneous::new(tip, sharpness / (one - sharpness)),
-        Homogeneous::new(end, one),
-    ]
+    [Homogeneous::new(start, one), Homogeneous::new(tip, sharpness / (one - sharpness)), Homogeneous::new(end, one)]
 }

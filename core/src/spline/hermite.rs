@@ -338,7 +338,9 @@ impl<V: VectorSpace> C2<'_, V> {
         let piece = i.saturating_sub(1);
         let inward = |near, far| if i == 0 { [zero, near, far] } else { [far, near, zero] };
         match ends {
-            EndCondition::Clamped([from, to]) => Row { factors: [zero, one, zero], right: if i == 0 { from } else { to } },
+            EndCondition::Clamped([from, to]) => {
+                Row { factors: [zero, one, zero], right: if i == 0 { from } else { to } }
+            }
             EndCondition::NotAKnot => {
                 let (own, next) = if i == 0 { (0, 1) } else { (i - 1, i - 2) };
                 let (a, b) = (self.step(own), self.step(next));
