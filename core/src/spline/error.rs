@@ -126,7 +126,9 @@ impl fmt::Display for SplineError {
             Self::NotPeriodic { index } => {
                 write!(f, "knot {index} breaks the period; repeat the distances of the first knots at the end")
             }
-            Self::MissingKnot { index } => write!(f, "the finer knots lack knot {index}; give them all knots of the curve"),
+            Self::MissingKnot { index } => {
+                write!(f, "the finer knots lack knot {index}; give them all knots of the curve")
+            }
             Self::Parameter { parameter, domain: [low, high] } => {
                 write!(f, "the parameter is {parameter}; give one in [{low}, {high}]")
             }

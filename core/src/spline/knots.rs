@@ -131,9 +131,9 @@ impl<'a, R: Real> KnotVector<'a, R> {
     }
 
     /// The `2 degree` knots around a span: the ones that decide on its basis functions.
-    #[inline]
+    #[inline(always)]
     pub(super) fn around(&self, span: usize) -> &'a [R] {
-        &self.knots[span + 1 - self.degree..=span + self.degree]
+        &self.knots[span + 1 - self.degree..][..2 * self.degree]
     }
 }
 

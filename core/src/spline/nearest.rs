@@ -30,17 +30,19 @@ impl<P: ControlPoint> Bezier<'_, P> {
     /// be the nearest one after at most 8192 parts. The
     /// distance is right to rounding, the parameter to the square root of it where the curve runs around the point.
     pub fn nearest(&self, to: P::Point) -> Nearest<P::Point> {
-        let start = self.point(P::Scalar::ZERO);
-        let mut search = Search {
-            curve: *self,
-            to,
-            best: Nearest { parameter: P::Scalar::ZERO, point: start, distance: (start - to).length() },
-            pieces: 0,
-        };
+        let far = Nearest { distance: P::Scalar::INFINITY, ..Nearest::default() };
+        self.nearer(to, far)
+    }
+
+    /// The point nearest to another one, or the one known before if that one is.
+    fn nearer(&self, to: P::Point, best: Nearest<P::Point>) -> Nearest<P::Point> {
+        let mut search = Search { curve: *self, to, best, pieces: 0 };
         let mut points = [P::default(); MAX_ORDER];
         points[..=self.degree()].copy_from_slice(self.points());
-        search.improve(P::Scalar::ONE);
-        search.within(&mut points[..=self.degree()], [P::Scalar::ZERO, P::Scalar::ONE], 0);
+        let [start, end] = [P::Scalar::ZERO, P::Scalar::ONE];
+        search.improve(start);
+        search.improve(end);
+        search.within(&mut points[..=self.degree()], [start, end], 0);
         search.best
     }
 }
@@ -49,14 +51,24 @@ impl<P: ControlPoint> BSpline<'_, P> {
     /// The point nearest to another one; of several, one of them. As that of all its Bezier pieces.
     pub fn nearest(&self, to: P::Point) -> Nearest<P::Point> {
         let mut nearest = Nearest { distance: P::Scalar::INFINITY, ..Nearest::default() };
+        let ends = |span: usize| [0, 1].map(|i| self.knots().knots()[span + i]);
+        // A near point that is known early spares most pieces.
+        for [start, end] in self.knots().spans().map(ends) {
+            let parameter = (start + end) * P::Scalar::from_f64(0.5);
+            let point = self.point(parameter);
+            let distance = (point - to).length();
+            if distance < nearest.distance {
+                nearest = Nearest { parameter, point, distance };
+            }
+        }
         let mut points = [P::default(); MAX_ORDER];
         let points = &mut points[..=self.degree()];
         for span in self.knots().spans() {
             if self.bezier(span, points).is_err() {
                 continue;
             }
-            let [start, end] = [0, 1].map(|i| self.knots().knots()[span + i]);
-            let candidate = Bezier::trusted(points).nearest(to);
+            let [start, end] = ends(span);
+            let candidate = Bezier::trusted(points).nearer(to, nearest);
             if candidate.distance < nearest.distance {
                 nearest = Nearest { parameter: start + (end - start) * candidate.parameter, ..candidate };
             }

@@ -53,7 +53,8 @@ pub fn bernstein_roots<R: Real + VectorSpace<Scalar = R>>(coefficients: &[R]) ->
         return Vec::new();
     }
     scratch[..coefficients.len()].copy_from_slice(coefficients);
-    let mut search = Search { roots: Vec::new(), noise: largest * R::EPSILON * R::from_usize(coefficients.len()), blur: R::ZERO };
+    let mut search =
+        Search { roots: Vec::new(), noise: largest * R::EPSILON * R::from_usize(coefficients.len()), blur: R::ZERO };
     search.within(&mut scratch[..coefficients.len()], [R::ZERO, R::ONE], DEEPEST);
     search.roots
 }
