@@ -2,8 +2,11 @@
 
 #[expect(dead_code, reason = "each test uses a part of the helpers")]
 mod common;
+#[path = "common/lamps.rs"]
+mod lamps;
 
 use common::*;
+use lamps::*;
 use radiosity::bake::{BakeError, BakeSettings, Quality, bake};
 use radiosity::light::{Light, LightSource, PointLight};
 use radiosity::progress::Progress;
@@ -17,6 +20,19 @@ fn threads_do_not_matter() {
     for threads in [2, 16] {
         let other = with(threads);
         assert_eq!((&one.images, &one.uvs, &one.placements), (&other.images, &other.uvs, &other.placements));
+    }
+}
+
+/// More lamps than are asked one by one: those of the rest are chosen by chance, by the same chance.
+#[test]
+fn threads_do_not_matter_under_many_lamps() {
+    let scene = hall(100);
+    let with = |threads| baked(&scene, &BakeSettings { threads, ..settings(4.0, Quality::Draft) });
+    let one = with(1);
+    for threads in [2, 16] {
+        let other = with(threads);
+        assert_eq!(one.images, other.images);
+        assert_eq!(one.report.estimated_error, other.report.estimated_error);
     }
 }
 

@@ -1,10 +1,13 @@
 //! Laws of diffuse light that every bake must obey, in scenes whose answer is known in closed form.
 
 mod common;
+#[path = "common/lamps.rs"]
+mod lamps;
 
 use common::*;
 use core::f32::consts::PI;
 use glam::Vec3;
+use lamps::*;
 use radiosity::bake::Quality;
 use radiosity::light::*;
 use radiosity::material::AlphaMode;
@@ -150,6 +153,36 @@ fn light_is_linear() {
     };
     let (one, two) = (with(64.0), with(128.0));
     assert!(one.images[0].texels.iter().zip(&two.images[0].texels).all(|(one, two)| *one * 2.0 == *two));
+}
+
+/// What 100 lamps emit is what a closed hall absorbs, `sum A E (1 - rho) = sum 4 pi I`: lamps that are chosen by chance
+/// neither lose light nor make any.
+#[test]
+fn light_of_many_lamps_is_absorbed() {
+    let mut scene = hall(100);
+    // The pillars stand on the floor and hold the ceiling: without them every texel counts whole.
+    scene.surfaces.truncate(6);
+    let bake = baked(&scene, &settings(8.0, Quality::Draft));
+    let emitted: f32 = scene.lights.iter().map(|light| 4.0 * PI * light.source.strength().x).sum();
+    let mut absorbed = 0.0;
+    for surface in 0..6 {
+        let Some(placement) = bake.placements[surface] else { panic!("it has a lightmap") };
+        let (image, [low, high]) = (&bake.images[placement.image], [placement.min, placement.max]);
+        let size = glam::Vec2::new(image.width as f32, image.height as f32);
+        let [low, high] = [low, high].map(|corner| (corner * size).round().as_uvec2());
+        let within = (low.y..high.y).flat_map(|y| (low.x..high.x).map(move |x| (y * image.width + x) as usize));
+        let valid = within.filter(|&at| image.states[at] == radiosity::lightmap::TexelState::Valid);
+        let (sum, count) = valid.fold((0.0, 0), |(sum, count), at| (sum + image.texels[at].x, count + 1));
+        let area = if surface_is_flat(&scene, surface) { 144.0 } else { 36.0 };
+        absorbed += area * PI * (1.0 - 0.5) * sum / count as f32;
+    }
+    assert!((absorbed / emitted - 1.0).abs() < 0.01, "{absorbed} lm of {emitted} lm");
+}
+
+/// Whether a side of the hall is its floor or its ceiling.
+fn surface_is_flat(scene: &Scene, surface: usize) -> bool {
+    let positions = &scene.meshes[scene.surfaces[surface].mesh].positions;
+    positions.iter().all(|position| position.y == positions[0].y)
 }
 
 /// A sky dome ten kilometers away does not lift rays over what lies two centimeters above a floor.

@@ -1,7 +1,8 @@
 //! Bakes series of rooms with ever more triangles, texels or lamps, and draws how time and memory grow into
 //! `growth_triangles.svg`, `growth_texels.svg` and `growth_lamps.svg`.
 //!
-//! `growth [--quick | --large] [FOLDER]`: small series, or up to 4096 x 4096 texels; where the pictures go.
+//! `growth [--quick | --large] [--only SERIES] [FOLDER]`: small series, or up to 4096 x 4096 texels; only that of
+//! triangles, texels or lamps; where the pictures go.
 //! `growth --sixteen SIDE` bakes sixteen images of that side instead, in 8 GiB where it is 4096, else in proportion.
 
 mod memory;
@@ -16,28 +17,31 @@ use std::{env, fs};
 
 use series::{Extent, Series};
 
+/// Bakes and prints a series.
+pub type Measure = fn(Extent) -> Result<Series, Box<dyn Error>>;
+
+/// All series by their names.
+pub const SERIES: [(&str, Measure); 3] =
+    [("triangles", series::triangles), ("texels", series::texels), ("lamps", series::lamps)];
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut extent, mut folder) = (Extent::Usual, PathBuf::from("."));
+    let (mut extent, mut only, mut folder) = (Extent::Usual, String::new(), PathBuf::from("."));
     let mut arguments = env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--quick" => extent = Extent::Quick,
             "--large" => extent = Extent::Large,
+            "--only" => only = arguments.next().ok_or("which series?")?,
             "--sixteen" => return sixteen::bake_sixteen(arguments.next().ok_or("which side?")?.parse()?),
             other if other.starts_with('-') => return Err(format!("unknown option {other}; see the source").into()),
             other => folder = other.into(),
         }
     }
     fs::create_dir_all(&folder)?;
-    for series in run(extent)? {
-        let file = folder.join(format!("growth_{}.svg", series.name));
-        fs::write(&file, picture::draw(&series)?)?;
+    for (name, measure) in SERIES.into_iter().filter(|(name, _)| only.is_empty() || *name == only) {
+        let file = folder.join(format!("growth_{name}.svg"));
+        fs::write(&file, picture::draw(&measure(extent)?)?)?;
         println!("{} shows it\n", file.display());
     }
     Ok(())
-}
-
-/// Bakes and prints all series.
-pub fn run(extent: Extent) -> Result<[Series; 3], Box<dyn Error>> {
-    Ok([series::triangles(extent)?, series::texels(extent)?, series::lamps(extent)?])
 }

@@ -2,47 +2,55 @@
 
 use std::error::Error;
 
+use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::series::Series;
+use super::series::{Curve, Law, Series};
 
-/// An SVG of the points, of the power law that fits them, and of the growth that should be.
+/// An SVG of time and memory: the points, the power law that fits them, and the growth that should be.
 pub fn draw(series: &Series) -> Result<String, Box<dyn Error>> {
     let mut svg = String::new();
     {
-        let root = SVGBackend::with_string(&mut svg, (640, 440)).into_drawing_area();
+        let root = SVGBackend::with_string(&mut svg, (1000, 400)).into_drawing_area();
         root.fill(&WHITE)?;
-        let [x, y] = [0, 1].map(|axis| bounds(series.points.iter().map(|point| point[axis])));
-        let mut chart = ChartBuilder::on(&root)
-            .margin(12)
-            .caption(format!("power {:.2}; {}", series.slope(), series.law), ("sans-serif", 18))
-            .x_label_area_size(44)
-            .y_label_area_size(64)
-            .build_cartesian_2d((x[0]..x[1]).log_scale(), (y[0]..y[1]).log_scale())?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .label_style(("sans-serif", 16))
-            .axis_desc_style(("sans-serif", 18))
-            .x_desc(series.name)
-            .y_desc(series.measured)
-            .x_label_formatter(&label)
-            .y_label_formatter(&label)
-            .draw()?;
-        let law = series.points.iter().map(|&[x, _]| (x, law(series, x))).filter(|(_, at)| *at <= y[1]);
-        chart.draw_series(DashedLineSeries::new(law, 4, 4, BLACK.mix(0.5).into()))?;
-        let points = || series.points.iter().map(|&[x, y]| (x, y));
-        chart.draw_series(LineSeries::new(points(), BLUE.stroke_width(2)))?;
-        chart.draw_series(points().map(|point| Circle::new(point, 4, BLUE.filled())))?;
+        for (area, curve) in root.split_evenly((1, 2)).iter().zip([&series.time, &series.memory]) {
+            draw_curve(area, series.name, curve)?;
+        }
         root.present()?;
     }
     Ok(svg)
 }
 
-/// Where the growth should be at a number, through the first point.
-fn law(series: &Series, at: f64) -> f64 {
-    let [x, y] = series.points[0];
-    if series.name == "triangles" { y * at.ln() / x.ln() } else { y * at / x }
+fn draw_curve(area: &DrawingArea<SVGBackend<'_>, Shift>, name: &str, curve: &Curve) -> Result<(), Box<dyn Error>> {
+    let Curve { measured, points, law } = curve;
+    let [x, y] = [0, 1].map(|axis| bounds(points.iter().map(|point| point[axis])));
+    let dashed = match law {
+        Law::Linear => "as their number",
+        Law::Logarithmic => "as its logarithm",
+    };
+    let slope = curve.slope();
+    let mut chart = ChartBuilder::on(area)
+        .margin(12)
+        .caption(format!("power {slope:.2}; dashed: {dashed}"), ("sans-serif", 18))
+        .x_label_area_size(44)
+        .y_label_area_size(64)
+        .build_cartesian_2d((x[0]..x[1]).log_scale(), (y[0]..y[1]).log_scale())?;
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .label_style(("sans-serif", 16))
+        .axis_desc_style(("sans-serif", 18))
+        .x_desc(name)
+        .y_desc(*measured)
+        .x_label_formatter(&label)
+        .y_label_formatter(&label)
+        .draw()?;
+    let should = points.iter().map(|&[x, _]| (x, law.at(points[0], x))).filter(|(_, at)| *at <= y[1]);
+    chart.draw_series(DashedLineSeries::new(should, 4, 4, BLACK.mix(0.5).into()))?;
+    let points = || points.iter().map(|&[x, y]| (x, y));
+    chart.draw_series(LineSeries::new(points(), BLUE.stroke_width(2)))?;
+    chart.draw_series(points().map(|point| Circle::new(point, 4, BLUE.filled())))?;
+    Ok(())
 }
 
 /// A little more than all numbers.

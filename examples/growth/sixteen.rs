@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use radiosity::bake::{BakeSettings, Quality, bake_into};
 use radiosity::geometry::NoLog;
+use radiosity::light::LightSource;
 use radiosity::lightmap::{LayoutSettings, LightmapImage, Resolution};
 use radiosity::progress::Progress;
 
@@ -16,16 +17,23 @@ const LARGEST: u64 = 4096;
 const MEMORY: u64 = 8 << 30;
 /// What smaller ones may use beside their share: it does not shrink with them.
 const FIXED: u64 = 144 << 20;
-const TEXELS_PER_METER: f32 = 64.0;
+/// Rooms along each direction, each with a lamp.
+const ROOMS: usize = 4;
+/// How far the lamps shine, in meters: into their rooms and the next, as in games.
+const RANGE: f32 = 3.0;
 /// What a room with its two blocks takes of the images, in square meters.
 const ROOM: f32 = 34.0;
 
 /// Bakes about sixteen images of this side and hands each over as soon as it is finished.
 pub fn bake_sixteen(side: u32) -> Result<(), Box<dyn Error>> {
-    let texels = 16.0 * (side * side) as f32;
-    let count = (texels / (TEXELS_PER_METER * TEXELS_PER_METER * ROOM)).cbrt().round().max(1.0) as usize;
-    let scene = rooms(count, 2, count.pow(3));
-    let resolution = Resolution::TexelsPerMeter(TEXELS_PER_METER);
+    let mut scene = rooms(ROOMS, 2, ROOMS.pow(3));
+    for light in &mut scene.lights {
+        if let LightSource::Point(lamp) = &mut light.source {
+            (lamp.range, lamp.radius) = (RANGE, 0.0);
+        }
+    }
+    let texels_per_meter = 4.0 * side as f32 / (ROOM * ROOMS.pow(3) as f32).sqrt();
+    let resolution = Resolution::TexelsPerMeter(texels_per_meter);
     let settings = BakeSettings {
         layout: LayoutSettings { resolution, max_image_size: side, ..Default::default() },
         quality: Quality::Draft,
@@ -45,9 +53,10 @@ pub fn bake_sixteen(side: u32) -> Result<(), Box<dyn Error>> {
         println!("{:>10} {:>8.1} s {:>8.1} Mrays", stage.name, stage.seconds, stage.rays as f64 * 1e-6);
     }
     println!(
-        "{} images, {} texels, {} patches, {} triangles, {} lamps, in {} parts: {} MiB allowed, {} estimated, {} used",
+        "{} images, {} texels ({} valid), {} patches, {} triangles, {} lamps, in {} parts: {} MiB allowed, {} estimated, {} used",
         report.images,
         report.texels,
+        report.valid_texels,
         report.patches,
         report.triangles,
         scene.lights.len(),
@@ -56,5 +65,6 @@ pub fn bake_sixteen(side: u32) -> Result<(), Box<dyn Error>> {
         report.estimated_memory_bytes >> 20,
         peak >> 20,
     );
+    report.warnings.iter().for_each(|warning| println!("{warning}"));
     Ok(())
 }

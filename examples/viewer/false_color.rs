@@ -7,7 +7,7 @@ use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 use radiosity::bake::Bake;
 use radiosity::geometry::{hash, normal_and_area};
 use radiosity::lightmap::NONE;
-use radiosity::render::{FalseColor, density_color, texel_density};
+use radiosity::render::{density_color, texel_density};
 use radiosity::scene::{Scene, World};
 
 use crate::views::View;
@@ -19,12 +19,9 @@ pub fn image(view: View, bake: &Bake, index: usize) -> Option<Image> {
     let lightmap = &bake.images[index];
     let of_indices = |indices: &[u32], hue: fn(u32) -> f32| indices.iter().map(|&index| of_index(index, hue)).collect();
     let colors: Vec<[u8; 3]> = match view {
-        View::Texels => FalseColor::Invalid.texel_colors(bake, index),
         View::Charts => of_indices(&lightmap.charts, golden_hue),
         View::Patches => of_indices(&lightmap.patches, random_hue),
-        View::Density => FalseColor::Density.texel_colors(bake, index),
-        View::Error => FalseColor::Error.texel_colors(bake, index),
-        View::Seams => FalseColor::Seams.texel_colors(bake, index),
+        View::Quality(shown) => shown.texel_colors(bake, index),
         View::Lit | View::Lightmap | View::Albedo => return None,
     };
     let pixels = colors.into_iter().flat_map(|[red, green, blue]| [red, green, blue, 255]).collect();

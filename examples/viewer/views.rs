@@ -9,6 +9,7 @@ use bevy::pbr::Lightmap;
 use bevy::prelude::*;
 use bevy_radiosity::bake::{AppliedBake, Collected};
 use bevy_radiosity::prelude::*;
+use radiosity::render::FalseColor;
 
 use crate::camera::Orbit;
 use crate::false_color::{self, densities};
@@ -28,30 +29,24 @@ pub enum View {
     Lightmap,
     /// The color of the surfaces alone. So while there is no bake.
     Albedo,
-    /// Each texel, and how it came by its light.
-    Texels,
     /// Each chart in a color of its own.
     Charts,
     /// Each patch in a color of its own.
     Patches,
-    /// Each texel, in the color of how dense they are on its surface.
-    Density,
-    /// The estimated error of each texel.
-    Error,
-    /// The step of light across each seam.
-    Seams,
+    /// How good the lightmaps are.
+    Quality(FalseColor),
 }
 
 const VIEWS: [(KeyCode, &str, View); 9] = [
     (KeyCode::Digit1, "lit", View::Lit),
     (KeyCode::Digit2, "lightmap", View::Lightmap),
     (KeyCode::Digit3, "albedo", View::Albedo),
-    (KeyCode::Digit4, "texels", View::Texels),
+    (KeyCode::Digit4, "invalid", View::Quality(FalseColor::Invalid)),
     (KeyCode::Digit5, "charts", View::Charts),
     (KeyCode::Digit6, "patches", View::Patches),
-    (KeyCode::Digit7, "density", View::Density),
-    (KeyCode::Digit8, "error", View::Error),
-    (KeyCode::Digit9, "seams", View::Seams),
+    (KeyCode::Digit7, "density", View::Quality(FalseColor::Density)),
+    (KeyCode::Digit8, "error", View::Quality(FalseColor::Error)),
+    (KeyCode::Digit9, "seams", View::Quality(FalseColor::Seams)),
 ];
 
 impl View {
@@ -116,7 +111,7 @@ fn show(
         _ => Tonemapping::None,
     };
     let tints = match (view, &applied, &source) {
-        (View::Density, Some(applied), Some(source)) => densities(&source.0.scene, &applied.bake),
+        (View::Quality(FalseColor::Density), Some(applied), Some(source)) => densities(&source.0.scene, &applied.bake),
         _ => Vec::new(),
     };
     let pictures = applied.map_or_else(Vec::new, |applied| pictures(view, &applied, &mut images));

@@ -1,8 +1,10 @@
 //! What can be said on the command line.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Parser, ValueEnum};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, ValueEnum};
 use radiosity::bake::{BakeSettings, Keep, Quality};
 use radiosity::lightmap::{LayoutSettings, Resolution, UvMode};
 use sysinfo::System;
@@ -115,6 +117,16 @@ pub(super) enum QualityArg {
 }
 
 impl Args {
+    /// Reads the arguments, of which the first is the name of the program.
+    pub fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        let args = Self::try_parse_from(words)?;
+        if args.dump_rays.is_some() && args.threads != 1 {
+            let text = "--dump-rays writes rays in the order of one thread only; add --threads 1";
+            return Err(Self::command().error(ErrorKind::ArgumentConflict, text));
+        }
+        Ok(args)
+    }
+
     /// How the bake is to be made.
     pub fn settings(&self) -> BakeSettings {
         let (texels, box_density) = match self.quality {
@@ -233,6 +245,19 @@ mod tests {
         assert_eq!(bytes("4096"), Ok(4096));
         for wrong in ["", "G", "2X", "-1G", "0"] {
             assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    /// Rays of several threads would come mixed: exit code 2, and what to add.
+    #[test]
+    fn rays_come_from_one_thread() {
+        let read =
+            |words: &[&str]| Args::read([&["bake", "--dump-rays", "rays"], words].concat().iter().map(Into::into));
+        assert!(read(&["--threads", "1"]).is_ok());
+        for wrong in [&[][..], &["--threads", "0"], &["--threads", "2"]] {
+            let error = read(wrong).unwrap_err();
+            assert_eq!(error.exit_code(), 2);
+            assert!(error.to_string().contains("add --threads 1"), "{error}");
         }
     }
 

@@ -31,7 +31,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use clap::Parser;
 use radiosity::bake::{Bake, BakeSettings, bake_into};
 use radiosity::geometry::{NoLog, RayLog};
 use radiosity::lightmap::LightmapImage;
@@ -98,7 +97,7 @@ fn report(error: &CliError) {
 ///
 /// See [`CliError`]. What lay in the folder before is as it was.
 pub fn try_run(args: impl IntoIterator<Item = OsString>, interrupted: &AtomicBool) -> Result<String, CliError> {
-    let args = Args::try_parse_from(args).map_err(CliError::Usage)?;
+    let args = Args::read(args).map_err(CliError::Usage)?;
     match &args.relight {
         Some(folder) => relight::relight(folder, &args, interrupted),
         None => bake_to_folder(&args, interrupted),
@@ -139,7 +138,7 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     let (mut bake, sizes) = match &args.dump_rays {
         None => bake_watched(scene, &settings, &memory, &NoLog, &mut staging)?,
         Some(file) => {
-            let dump = RayDump::new(settings.threads)?;
+            let dump = RayDump::default();
             let baked = bake_watched(scene, &settings, &memory, &dump, &mut staging)?;
             dump.write(file)?;
             baked

@@ -16,7 +16,8 @@ const TILE: u64 = 2048;
 /// Of so many tiles one is kept.
 const EVERY: u64 = 64;
 
-/// Keeps the rays of every 64th tile, in the order of tracing.
+/// Keeps the rays of every 64th tile, in the order of tracing: those of several threads would come mixed.
+#[derive(Default)]
 pub(super) struct RayDump(Mutex<Kept>);
 
 #[derive(Default)]
@@ -26,14 +27,6 @@ struct Kept {
 }
 
 impl RayDump {
-    /// With one thread only: the rays of several would come mixed.
-    pub fn new(threads: usize) -> Result<Self, CliError> {
-        match threads {
-            1 => Ok(Self(Mutex::default())),
-            _ => Err(CliError::new("rays are dumped in the order of one thread only; add --threads 1")),
-        }
-    }
-
     /// Writes what was kept.
     pub fn write(self, file: &Path) -> Result<(), CliError> {
         let kept = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -63,8 +56,7 @@ mod tests {
     /// Of 200 tiles the first of each 64 is kept: four.
     #[test]
     fn every_64th_tile_is_kept() {
-        assert!(RayDump::new(2).is_err());
-        let Ok(dump) = RayDump::new(1) else { panic!("one thread is enough") };
+        let dump = RayDump::default();
         for index in 0..200 * TILE {
             let ray = Ray { origin: Vec3::splat(index as f32), direction: Vec3::X, end: f32::INFINITY };
             dump.record(&ray, if index == 1 { RayKind::AnyHit } else { RayKind::Closest });

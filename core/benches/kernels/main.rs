@@ -139,7 +139,7 @@ fn seams(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(seams.points.len() as u64)).sample_size(10);
     group.bench_function("find", |bencher| bencher.iter(find));
     group.bench_function("solve", |bencher| {
-        bencher.iter(|| seams.solve(&mut images.clone(), &workers, &progress).expect("nobody cancels"));
+        bencher.iter(|| seams.solve(&mut images.clone(), 1.0, &workers, &progress).expect("nobody cancels"));
     });
     group.finish();
 }

@@ -9,14 +9,14 @@ use glam::Vec3A;
 use super::assemble::{Assembly, Repairs};
 use super::coarse::Coarse;
 use super::emitters::Lamp;
-use super::estimate::Estimate;
+use super::estimate::{Estimate, Foreseen};
 use super::parts::Parts;
 use super::pieces::Pieces;
 use super::rays::RayBudget;
 use super::summary::{Done, Tally};
 use super::{BakeSettings, Baker, DirectLights, Keep, Log, Seeds};
 use crate::geometry::Occluders;
-use crate::lightmap::{DirectError, LightmapImage, Nodes, Seams, filter, seam_texels};
+use crate::lightmap::{DirectError, LightmapImage, Nodes, Seams, filter, seam_texels, split_seams};
 use crate::math;
 use crate::progress::{Cancelled, Stage};
 use crate::transport::{Codes, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
@@ -32,7 +32,7 @@ pub(super) struct Course<'a> {
 }
 
 /// The light of a part that comes straight from the lamps, until it is needed again.
-pub(super) enum Lit {
+enum Lit {
     /// Of the only part, with what its surfaces do with light.
     Only(Box<(Surfaces, DirectLights)>),
     /// Of the texels of one of several parts.
@@ -44,10 +44,18 @@ pub(super) enum Lit {
     },
 }
 
+/// The light of all parts that comes straight from the lamps.
+pub(super) struct AllLit {
+    /// Of each part.
+    lit: Vec<Lit>,
+    /// How bright all will be.
+    foreseen: Foreseen,
+}
+
 impl Course<'_> {
     /// What patches do with light and get from the lamps, and the direct light of each part.
-    pub fn direct<O: Occluders>(&self, parts: &mut Parts<'_, O>) -> Result<(PatchLight, Vec<Lit>), Cancelled> {
-        let (mut light, mut lit) = (PatchLight::default(), Vec::new());
+    pub fn direct<O: Occluders>(&self, parts: &mut Parts<'_, O>) -> Result<(PatchLight, AllLit), Cancelled> {
+        let (mut light, mut lit, mut foreseen) = (PatchLight::default(), Vec::new(), Foreseen::default());
         for number in (0..parts.len()).rev() {
             parts.progress.enter_group(parts.len() - 1 - number, parts.len());
             parts.turn_to(number)?;
@@ -64,10 +72,15 @@ impl Course<'_> {
             } else {
                 light.take_in(&of_part, parts.own());
             }
-            lit.push(if parts.len() == 1 { Lit::Only(Box::new((surfaces, direct))) } else { Lit::shortened(&direct) });
+            lit.push(if parts.len() == 1 {
+                Lit::Only(Box::new((surfaces, direct)))
+            } else {
+                foreseen.add(&surfaces.patch_of, &parts.is_valid, &direct.sums);
+                Lit::shortened(&direct)
+            });
         }
         lit.reverse();
-        Ok((light, lit))
+        Ok((light, AllLit { lit, foreseen }))
     }
 
     /// Rows of form factors between all patches. The sky and the black see nothing.
@@ -86,7 +99,7 @@ impl Course<'_> {
     pub fn gather<O: Occluders>(
         &self,
         parts: &mut Parts<'_, O>,
-        mut lit: Vec<Lit>,
+        AllLit { mut lit, mut foreseen }: AllLit,
         mut rows: Rows,
         solution: &Solution,
         log: &mut Log,
@@ -95,6 +108,7 @@ impl Course<'_> {
         let areas = parts.patches.list.iter().map(|patch| patch.area);
         let mut tally = Tally::new(&rows, solution.energy_balance(areas, &rows));
         let mut transport = None;
+        foreseen.receive(&solution.received);
         while let Some(of_part) = lit.pop() {
             let (number, tracer) = (lit.len(), parts.tracer);
             log.turn_to(Stage::Gather, tracer);
@@ -121,14 +135,14 @@ impl Course<'_> {
             if number == 0 {
                 progress.enter(Stage::Finish);
             }
-            let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect);
+            let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect, &foreseen);
             let assembly = Assembly { texels, is_valid, patches, workers, progress };
             let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
             let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
-            let seam_report = seams.solve(&mut images, workers, progress)?;
+            let seam_report = seams.solve(&mut images, estimate.whole, workers, progress)?;
             let done = Done { world: tracer.world, texels, is_valid, surfaces: &surfaces, solution };
             let done = done.tally(&estimate, &indirect);
-            let seam_texels = seam_texels(&seams, &images, texels.here.start);
+            let seam_texels = seam_texels(&seams, &images, estimate.whole, texels.here.start);
             tally.add(&Tally { seams: seam_report, seam_texels, ..done });
             for (index, image) in texels.here.clone().zip(images) {
                 take(index, image)?;
@@ -138,6 +152,7 @@ impl Course<'_> {
                 transport = Some(assembly.transport(surfaces, kept, rows, nodes, Repairs { fills, seams }, scene)?);
             }
         }
+        tally.split_seams = split_seams(&parts.images, &parts.texels, parts.tracer, parts.workers, parts.progress)?;
         Ok((tally, transport))
     }
 

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use super::EstimatedError;
+use super::{BakeSettings, EstimatedError, Keep};
 use crate::lightmap::{DirectError, Smooth, Texel, Texels};
 use crate::math;
 
@@ -14,11 +14,13 @@ use crate::math;
 /// of 9 bits that are spread evenly in their logarithm, `sqrt(3 / (24 ln 2)) / 512`.
 const ROUNDING: f32 = 8.3e-4;
 
-/// Errors relative to the light at each texel plus a tenth of the mean of all. Lists have one entry for each covered
-/// texel; light is irradiance / pi.
+/// Errors relative to the light at each texel plus a tenth of the mean of the whole bake. Lists have one entry for each
+/// covered texel; light is irradiance / pi.
 pub(super) struct Estimate {
-    /// Mean over the valid texels and the channels of direct and indirect light together.
+    /// Mean over the valid texels that are here and the channels of direct and indirect light together.
     pub mean: f32,
+    /// The same of all parts of the bake.
+    pub whole: f32,
     /// Standard error of each valid texel from its rays, zero for others.
     pub errors: Vec<f32>,
     /// Root mean square of the errors.
@@ -28,22 +30,25 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// From both parts of the light of each texel, the direct one with its errors.
+    /// From both parts of the light of each texel, the direct one with its errors. What the texels of other parts will
+    /// have is `foreseen`.
     pub fn new(
         texels: &Texels,
         is_valid: &[bool],
         (direct, direct_errors): (&[Vec3A], &[DirectError]),
         indirect: &[Smooth],
+        foreseen: &Foreseen,
     ) -> Self {
         let total = |(direct, indirect): (&Vec3A, &Smooth)| Vec3::from(*direct) + indirect.irradiance;
         let light: Vec<f32> = direct.iter().zip(indirect).map(|pair| total(pair).element_sum() / 3.0).collect();
         let valid = || (0..light.len()).filter(|&index| is_valid[index]);
         let count = valid().count().max(1) as f64;
         let mean = (valid().map(|index| f64::from(light[index])).sum::<f64>() / count) as f32;
-        if mean <= 0.0 {
-            return Self { errors: light.iter().map(|_| 0.0).collect(), mean, noise: 0.0, rms: 0.0 };
+        let whole = foreseen.mean(mean);
+        if whole <= 0.0 {
+            return Self { errors: light.iter().map(|_| 0.0).collect(), mean, whole, noise: 0.0, rms: 0.0 };
         }
-        let floor = 0.1 * mean;
+        let floor = 0.1 * whole;
         let variance = |index: usize| indirect[index].variance + direct_errors[index].noise;
         let error =
             |index: usize| if is_valid[index] { math::sqrt(variance(index)) / (light[index] + floor) } else { 0.0 };
@@ -58,24 +63,62 @@ impl Estimate {
         let noise = valid().map(|index| f64::from(errors[index] * errors[index])).sum::<f64>() / count;
         let missed = valid().map(missed).sum::<f64>() / count;
         let rms = math::sqrt((noise + missed) as f32 + ROUNDING * ROUNDING);
-        Self { mean, errors, noise: math::sqrt(noise as f32), rms }
+        Self { mean, whole, errors, noise: math::sqrt(noise as f32), rms }
+    }
+}
+
+/// The light of the texels of all parts before they gather: what comes straight from the lamps, and what their patches
+/// received.
+#[derive(Default)]
+pub(super) struct Foreseen {
+    /// Sum of the direct light of all valid texels.
+    direct: f64,
+    /// How many of them each patch has.
+    texels: Vec<u32>,
+    /// Sum of what their patches received.
+    indirect: f64,
+}
+
+impl Foreseen {
+    /// Counts the texels of a part, from the patch of each and its direct light.
+    pub fn add(&mut self, patch_of: &[u32], is_valid: &[bool], direct: &[Vec3A]) {
+        for ((&patch, direct), _) in patch_of.iter().zip(direct).zip(is_valid).filter(|(_, is_valid)| **is_valid) {
+            let patch = patch as usize;
+            self.texels.resize(self.texels.len().max(patch + 1), 0);
+            self.texels[patch] += 1;
+            self.direct += f64::from(direct.element_sum() / 3.0);
+        }
+    }
+
+    /// Takes in what each patch received.
+    pub fn receive(&mut self, received: &[Vec3A]) {
+        let sum = |(&texels, received): (&u32, &Vec3A)| f64::from(texels) * f64::from(received.element_sum() / 3.0);
+        self.indirect = self.texels.iter().zip(received).map(sum).sum();
+    }
+
+    /// The mean over all texels and channels; `only` where nothing was counted, since there is one part.
+    fn mean(&self, only: f32) -> f32 {
+        let count: f64 = self.texels.iter().map(|&texels| f64::from(texels)).sum();
+        if count > 0.0 { ((self.direct + self.indirect) / count) as f32 } else { only }
     }
 }
 
 /// What the user should know where the error is larger than wanted.
-pub(super) fn warning(error: &EstimatedError, wanted: f32, texels_per_meter: f32) -> Option<String> {
-    let EstimatedError { rms, noise, .. } = *error;
+pub(super) fn warning(error: &EstimatedError, settings: &BakeSettings, texels_per_meter: f32) -> Option<String> {
+    let (EstimatedError { rms, noise, .. }, wanted) = (*error, settings.target_error);
     if wanted <= 0.0 || rms <= wanted {
         return None;
     }
     let percent = |error: f32| format!("{:.1} %", 100.0 * error);
-    let remedy = if noise > wanted {
-        String::from("no texel gets more rays than that; choose a higher quality")
-    } else {
-        format!(
+    let remedy = match settings.keep {
+        _ if noise <= wanted => format!(
             "the rest lies between texels, mostly at edges of shadows, where no rays help: bake more than \
              {texels_per_meter:.1} texels per meter"
-        )
+        ),
+        Keep::Lightmaps => "no texel gets more rays than that; choose a higher quality".into(),
+        Keep::Transport => {
+            "where the transport is kept, all texels have as many rays as the quality says; choose a higher one".into()
+        }
     };
     let [rms, wanted, noise] = [rms, wanted, noise].map(percent);
     Some(format!("the estimated error is {rms} instead of {wanted}; noise is {noise}: {remedy}"))
@@ -144,10 +187,16 @@ mod tests {
 
     #[test]
     fn warnings_tell_the_remedy() {
-        let says = |noise, rms, wanted| warning(&EstimatedError { rms, noise, bias: 0.0 }, wanted, 8.0);
+        let says = |noise, rms, target_error| {
+            let settings = BakeSettings { target_error, ..Default::default() };
+            warning(&EstimatedError { rms, noise, bias: 0.0 }, &settings, 8.0)
+        };
         assert_eq!(says(0.01, 0.019, 0.02), None);
         assert_eq!(says(0.01, 0.1, 0.0), None);
         assert!(says(0.01, 0.1, 0.02).is_some_and(|text| text.contains("8.0 texels per meter")));
         assert!(says(0.03, 0.04, 0.02).is_some_and(|text| text.contains("higher quality")));
+        let keeping = BakeSettings { target_error: 0.02, keep: Keep::Transport, ..Default::default() };
+        let noisy = EstimatedError { rms: 0.04, noise: 0.03, bias: 0.0 };
+        assert!(warning(&noisy, &keeping, 8.0).is_some_and(|text| text.contains("transport is kept")));
     }
 }

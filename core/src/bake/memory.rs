@@ -7,15 +7,15 @@ use core::ops::Range;
 use super::rays::RayBudget;
 use super::{BakeError, BakeSettings, Keep};
 use crate::lightmap::{BLOCK, Layout};
-use crate::scene::{Receiver, Scene};
+use crate::scene::{Receiver, Scene, Surface};
 
 /// For each triangle: corners twice, normal, source, corners in the image, and its part of the tree while it is built.
 const TRIANGLE: u64 = 420;
 /// For each texel of an image that is being worked on: what covers it, its index, the finished lightmap with its states,
 /// the texel, direct, incident and gathered light, its patch and the lists that make these.
-const TEXEL: u64 = 259;
+const TEXEL: u64 = 230;
 /// The same where there are several parts, each of which keeps less.
-const TEXEL_OF_PART: u64 = 190;
+const TEXEL_OF_PART: u64 = 215;
 /// For each texel of a finished lightmap.
 const FINISHED: u64 = 29;
 /// Texels of finished lightmaps that whoever takes them from [`super::bake_into`] may keep.
@@ -29,8 +29,12 @@ const ELSEWHERE: u64 = 12;
 const PATCH: u64 = 190;
 /// For each ray of a row of form factors, if all end on patches of their own.
 const ENTRY: u64 = 4;
-/// For each covered texel of a transport: how it is mixed, its places, and what lamps give it.
+/// For each covered texel of a transport: how it is mixed, and its places.
 const KEPT: u64 = 200;
+/// For each covered texel of a transport and each lamp: what the lamp gives it, if it shines on all, with the gaps.
+const KEPT_LAMP: u64 = 3;
+/// The same of an emissive surface, whose colors may differ from place to place.
+const KEPT_EMITTER: u64 = 3 * KEPT_LAMP;
 /// For each ray of a texel, while rows of transport are made one after the other.
 const KEPT_ENTRY: u64 = 6;
 /// Whatever the scene.
@@ -104,7 +108,7 @@ struct Needs {
 
 impl Needs {
     fn new(scene: &Scene, layout: &Layout, budget: &RayBudget, settings: &BakeSettings, finished: Finished) -> Self {
-        let count = |surface: &crate::scene::Surface| scene.meshes[surface.mesh].triangles.len() as u64;
+        let count = |surface: &Surface| scene.meshes[surface.mesh].triangles.len() as u64;
         let triangles: u64 = scene.surfaces.iter().map(count).sum();
         let without = scene.surfaces.iter().filter(|surface| surface.receiver == Receiver::Nothing);
         let sides = if scene.materials.iter().any(|material| material.double_sided) { 2 } else { 1 };
@@ -116,7 +120,7 @@ impl Needs {
             patch,
             kept: match settings.keep {
                 Keep::Lightmaps => 0,
-                Keep::Transport => KEPT + u64::from(budget.kept) * KEPT_ENTRY,
+                Keep::Transport => KEPT + u64::from(budget.kept) * KEPT_ENTRY + kept_light(scene),
             },
             finished,
         }
@@ -167,5 +171,99 @@ impl Needs {
 
     fn texels(&self, images: Range<usize>) -> u64 {
         self.images[images].iter().sum()
+    }
+}
+
+/// What a transport keeps of the lamps for each texel, in bytes.
+fn kept_light(scene: &Scene) -> u64 {
+    let emits = |surface: &&Surface| surface.casts && scene.materials[surface.material].is_emissive();
+    let emitters = scene.surfaces.iter().filter(emits).count() as u64;
+    scene.lights.len() as u64 * KEPT_LAMP + emitters * KEPT_EMITTER
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+
+    use glam::Vec3;
+
+    use super::*;
+    use crate::bake::Quality;
+    use crate::light::{DirectionalLight, Light, LightSource};
+    use crate::scene::cornell_box;
+
+    const GIB: u64 = 1 << 30;
+
+    fn planned(
+        scene: &Scene,
+        images: Vec<[u32; 2]>,
+        settings: &BakeSettings,
+        finished: Finished,
+    ) -> Result<MemoryPlan, BakeError> {
+        let layout = Layout { images, ..Layout::default() };
+        MemoryPlan::new(scene, &layout, &RayBudget::new(settings), settings, finished)
+    }
+
+    /// Sixteen of the largest images fit into 8 GiB part by part, if somebody takes them; the rows of high quality need
+    /// one more.
+    #[test]
+    fn sixteen_large_images_in_eight_gibibytes() {
+        for (quality, gibibytes) in [(Quality::Draft, 8), (Quality::Medium, 8), (Quality::High, 9)] {
+            let settings = BakeSettings { quality, memory_bytes: gibibytes * GIB, ..Default::default() };
+            let plan = planned(&cornell_box(), vec![[4096; 2]; 16], &settings, Finished::HandedOver).expect("it fits");
+            assert!(
+                plan.needed <= gibibytes * GIB && plan.parts.len() > 1,
+                "{} in {} parts",
+                plan.needed,
+                plan.parts.len()
+            );
+            assert_eq!(plan.parts.iter().cloned().flatten().collect::<Vec<_>>(), (0..16).collect::<Vec<_>>());
+        }
+    }
+
+    /// Finished images alone are more than that.
+    #[test]
+    fn what_is_kept_counts() {
+        let settings = BakeSettings { memory_bytes: 8 * GIB, ..Default::default() };
+        let refused = planned(&cornell_box(), vec![[4096; 2]; 16], &settings, Finished::Collected).err();
+        let Some(BakeError::OutOfMemory { needed, allowed }) = refused else { panic!("{refused:?}") };
+        let texels = 16 * 4096 * 4096;
+        assert!(allowed == 8 * GIB && needed > texels * (FINISHED + ELSEWHERE));
+    }
+
+    /// With less memory there are no fewer parts, none needs more than is allowed, and what needs too much is refused.
+    #[test]
+    fn less_memory_is_more_parts() {
+        let images: Vec<[u32; 2]> = (1..9).map(|k| [256 * k, 1024]).collect();
+        let (mut last, mut refused) = (1, false);
+        for mebibytes in (0..2048).rev().step_by(16) {
+            let settings = BakeSettings { memory_bytes: mebibytes << 20, ..Default::default() };
+            match planned(&cornell_box(), images.clone(), &settings, Finished::HandedOver) {
+                Ok(plan) => {
+                    assert!(!refused && plan.needed <= mebibytes << 20);
+                    // Wider patches leave more memory to texels.
+                    assert!(plan.parts.len() >= last || plan.cell > BLOCK);
+                    last = plan.parts.len();
+                }
+                Err(_) => refused = true,
+            }
+        }
+        assert!(refused && last > 1);
+    }
+
+    /// A transport keeps a row for each texel, and a list for each lamp.
+    #[test]
+    fn a_transport_counts_lamps_and_rows() {
+        let mut scene = cornell_box();
+        let needed = |scene: &Scene, quality| {
+            let settings = BakeSettings { quality, keep: Keep::Transport, ..Default::default() };
+            planned(scene, vec![[1024; 2]], &settings, Finished::Collected).expect("no limit").needed
+        };
+        let [draft, high] = [Quality::Draft, Quality::High].map(|quality| needed(&scene, quality));
+        assert!(high - draft >= 4 * (1 << 20) * (512 - 32));
+        let (direction, illuminance) = (Vec3::NEG_Y, Vec3::ONE);
+        let sun = LightSource::Directional(DirectionalLight { direction, illuminance, angular_diameter: 0.0 });
+        scene.lights.extend(vec![Light { name: "sun".into(), source: sun }; 100]);
+        assert!(needed(&scene, Quality::Draft) - draft >= 2 * 100 * (1 << 20));
     }
 }

@@ -221,9 +221,8 @@ impl<O: Occluders> Baker<'_, O> {
 
     /// What the nodes gather of the radiance of all columns.
     fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A]) -> Result<Nodes, Cancelled> {
-        let Pieces { tracer, texels, patches, workers, progress, .. } = *self.pieces;
-        let spread = self.budget.spread();
-        let field = Field { tracer, texels, patches, surfaces: self.surfaces, spread };
+        let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
+        let field = Field::new(self.pieces, self.surfaces, self.budget.spread());
         let gather = Gather {
             texels,
             is_valid: self.is_valid,

@@ -19,7 +19,7 @@ pub(super) struct Parts<'a, O> {
     /// Of the rows of form factors.
     pub seed: u32,
     /// The images of each part.
-    images: Vec<Range<usize>>,
+    pub images: Vec<Range<usize>>,
     /// Texels along the side of the widest patches.
     cell: u32,
     records: Vec<Record>,

@@ -14,10 +14,13 @@ use crate::math;
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::World;
-use crate::transport::{Cells, Codes, Row, Surfaces, Tracer};
+use crate::transport::{Cells, Codes, Row, Rows, Surfaces, Tracer};
 
 /// Points of a patch from which direct light is looked for where it has no texels to average.
 const DIRECT_POINTS: u32 = 16;
+
+/// Texels whose neighbors are found before they are put together.
+const BATCH: usize = 1 << 17;
 
 /// The texels that are here, all patches, and what looks at them.
 pub(super) struct Pieces<'a, O> {
@@ -71,9 +74,6 @@ impl<O: Occluders> Pieces<'_, O> {
         let codes = |which: usize| Codes::new(details.iter().flat_map(move |detail| detail[which].to_array()));
         let [reflectance, emission] = [codes(0), codes(1)];
         drop(details);
-        let around: Vec<Row> = self
-            .workers
-            .map(of_texel.len(), 4096, self.progress, |range| range.map(|texel| self.around(texel)).collect())?;
         Ok(Surfaces {
             areas: self.patches.list.iter().map(|patch| patch.area).collect(),
             materials: self.of_own(0, |patch| self.material(patch)),
@@ -83,7 +83,7 @@ impl<O: Occluders> Pieces<'_, O> {
             reflectance,
             emission,
             cells: [self.cells(4), self.cells(2)],
-            around: around.into(),
+            around: self.all_around()?,
         })
     }
 
@@ -162,6 +162,20 @@ impl<O: Occluders> Pieces<'_, O> {
         });
         let of_texel = of_texel.collect();
         Cells { of_texel, count }
+    }
+
+    /// For each texel the patches around it, batch by batch: so many small lists at once leave holes in the memory.
+    fn all_around(&self) -> Result<Rows, Cancelled> {
+        let (mut rows, count) = (Rows::default(), self.texels.list.len());
+        for start in (0..count).step_by(BATCH) {
+            let texels = (count - start).min(BATCH);
+            rows.append(
+                self.workers.map(texels, 4096, self.progress, |range| {
+                    range.map(|texel| self.around(start + texel)).collect()
+                })?,
+            );
+        }
+        Ok(rows)
     }
 
     /// Weights of the patches around a texel, bilinear, as far as they belong to its chart.

@@ -41,6 +41,8 @@ pub(super) struct Tally {
     pub error: EstimatedError,
     pub seams: SeamReport,
     pub seam_texels: Vec<SeamTexel>,
+    /// Points of seams between images of different parts.
+    pub split_seams: usize,
     pub closure_error: f32,
     pub energy_balance: f32,
 }
@@ -178,10 +180,16 @@ pub(super) fn warnings(
             "{lowered} of {patches} patches reflect more than {LARGEST_REFLECTANCE} and were taken to reflect that; lower the base color of their materials",
         ));
     }
-    warnings.extend(warning(&tally.error, settings.target_error, layout.texels_per_meter));
+    warnings.extend(warning(&tally.error, settings, layout.texels_per_meter));
     if parts > 1 {
         warnings.push(format!(
-            "the images did not fit into the memory together and were baked in {parts} parts: where surfaces in different parts lie close together, their light on each other is as coarse as patches of {cell} x {cell} texels, and seams between them remain; allow more memory to bake them at once"
+            "the images did not fit into the memory together and were baked in {parts} parts: where surfaces in different parts lie close together, their light on each other is as coarse as patches of {cell} x {cell} texels; allow more memory to bake them at once"
+        ));
+    }
+    let (split, all) = (tally.split_seams, tally.split_seams + tally.seams.pairs);
+    if split > 0 {
+        warnings.push(format!(
+            "{split} of {all} points at which seams are seen lie between images of different parts, where their two sides were not made to agree; allow more memory to bake them at once"
         ));
     }
     warnings

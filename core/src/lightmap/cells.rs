@@ -50,6 +50,7 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
             }
             cells = smaller;
         }
+        self.stand(&kept, &mut nodes.gathered);
         self.interpolate(&kept, &mut nodes.gathered);
         let is_left = |&texel: &usize| self.is_valid[texel] && nodes.gathered[texel].width == 0;
         let rest = (0..nodes.gathered.len()).filter(is_left).collect();
@@ -92,6 +93,17 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
             }
         }
         self.add(wanted, 1, nodes, workers, progress)
+    }
+
+    /// Lets nodes stand for the widest of their cells that were kept; those of cells that were split are like any other
+    /// texel, and filtered like it.
+    fn stand(&self, kept: &[Cell], gathered: &mut [Gathered]) {
+        gathered.iter_mut().for_each(|node| node.width = node.width.min(1));
+        for cell in kept {
+            for corner in self.corners(cell).into_iter().flatten() {
+                gathered[corner].width = gathered[corner].width.max(cell.width as u8);
+            }
+        }
     }
 
     fn widest_cells(&self) -> Vec<Cell> {
@@ -164,11 +176,10 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
             }
             let [u, v] = [column, row].map(|along| f32::from(along) / f32::from(cell.width));
             let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
-            let mix = |pick: fn(&Gathered) -> f32| {
-                [a, b, c, d].iter().zip(weights).map(|(node, weight)| pick(node) * weight).sum::<f32>()
-            };
-            let irradiance = [a, b, c, d].iter().zip(weights).map(|(node, weight)| node.irradiance * weight).sum();
-            let (variance, distance) = (mix(|node| node.variance), mix(|node| node.distance));
+            let nodes = || [&a, &b, &c, &d].into_iter().zip(weights);
+            let irradiance = nodes().map(|(node, weight)| node.irradiance * weight).sum();
+            let variance = nodes().map(|(node, weight)| node.variance * weight * weight).sum();
+            let distance = nodes().map(|(node, weight)| node.distance * weight).sum();
             gathered[texel] = Gathered { irradiance, variance, distance, rays: 0, width: cell.width as u8 };
         }
     }

@@ -31,8 +31,10 @@ pub fn dilate(image: &mut LightmapImage, progress: &Progress) -> Result<Fills, C
     let mut filling = Filling { image, known, fills };
     // Inside its chart an invalid texel takes from known ones, ring by ring until nothing changes.
     let rest = filling.fill(invalid, true, progress)?;
-    let mut front = all_in(filling.image, TexelState::Valid);
-    front.extend(all_in(filling.image, TexelState::Invalid));
+    let states = &filling.image.states;
+    let is_free = |(_, at): (usize, usize)| states[at] == TexelState::Empty;
+    let is_border = |&at: &usize| states[at] != TexelState::Empty && neighbors(filling.image, at).any(is_free);
+    let mut front: Vec<usize> = (0..states.len()).filter(is_border).collect();
     let mut gutter: Vec<usize> = Vec::new();
     for _ in 0..GUTTER {
         progress.check()?;

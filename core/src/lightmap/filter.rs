@@ -36,40 +36,48 @@ pub fn filter(
     workers: &Workers,
     progress: &Progress,
 ) -> Result<Vec<Smooth>, Cancelled> {
-    let smooth: Vec<Smooth> = workers.map(gathered.len(), 1024, progress, |range| {
-        range.map(|index| filtered(index, gathered, texels, is_valid)).collect()
+    let variances: Vec<f32> = workers.map(gathered.len(), 1024, progress, |range| {
+        range.map(|index| pooled_variance(index, gathered, texels, is_valid)).collect()
     })?;
     workers.map(gathered.len(), 1024, progress, |range| {
-        let variance = |index| variance_around(index, &smooth, texels, is_valid);
-        range.map(|index| Smooth { variance: variance(index), ..smooth[index] }).collect()
+        range.map(|index| filtered(index, gathered, &variances, texels, is_valid)).collect()
     })
 }
 
-/// The mean variance of the texels around one: that of one alone, from two halves, is too uncertain.
-fn variance_around(index: usize, smooth: &[Smooth], texels: &Texels, is_valid: &[bool]) -> f32 {
+/// Variance of what a texel gathered, from those around it: two halves alone agree now and then by chance.
+///
+/// Nodes have the variance of one ray in common, as strata of a survey are pooled (Cochran, "Sampling Techniques", 1977,
+/// section 5.7). Those of wide cells lie as far apart as the cells are wide.
+fn pooled_variance(index: usize, gathered: &[Gathered], texels: &Texels, is_valid: &[bool]) -> f32 {
     let Texel { pixel: [x, y], image, chart, .. } = texels.list[index];
+    let Gathered { rays, width, .. } = gathered[index];
+    let step = i32::from(width.max(1));
     let (mut sum, mut count) = (0.0, 0.0_f32);
     for k in 0..9 {
-        let (x, y) = (i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1);
+        let (x, y) = (i32::from(x) + (k % 3 - 1) * step, i32::from(y) + (k / 3 - 1) * step);
         let Some(other) = texels.at_pixel(u32::from(image), x, y) else { continue };
-        let other = other as usize;
-        if is_valid[other] && texels.list[other].chart == chart {
-            sum += smooth[other].variance;
+        let node = &gathered[other as usize];
+        let is_same_kind = (node.rays > 0) == (rays > 0) && texels.list[other as usize].chart == chart;
+        if is_valid[other as usize] && is_same_kind {
+            sum += node.variance * node.rays.max(1) as f32;
             count += 1.0;
         }
     }
-    sum / count.max(1.0)
+    sum / (count.max(1.0) * rays.max(1) as f32)
 }
 
-fn filtered(index: usize, gathered: &[Gathered], texels: &Texels, is_valid: &[bool]) -> Smooth {
+fn filtered(index: usize, gathered: &[Gathered], variances: &[f32], texels: &Texels, is_valid: &[bool]) -> Smooth {
     let (mut sum, mut variance, mut weights) = (Vec3::ZERO, 0.0, 0.0);
     stencil(index, gathered, texels, is_valid, |other, weight| {
-        let node = &gathered[other];
-        sum += node.irradiance * weight;
-        variance += node.variance * weight * weight;
+        sum += gathered[other].irradiance * weight;
+        variance += variances[other] * weight * weight;
         weights += weight;
     });
-    Smooth { irradiance: sum / weights, variance: variance / (weights * weights) }
+    let apart = variance / (weights * weights);
+    // The texels of a cell have their noise in common; but filtering adds none.
+    let side = f32::from(gathered[index].width.max(1));
+    let variance = (apart * side * side).min(variances[index].max(apart));
+    Smooth { irradiance: sum / weights, variance }
 }
 
 /// Visits the texels that are mixed into one, each with its weight: at least itself.
@@ -82,8 +90,9 @@ pub fn stencil(
 ) {
     let (own, texel) = (&gathered[index], &texels.list[index]);
     let sigma = (WIDTH * own.distance / math::sqrt(texel.area.max(1e-12))).min(WIDEST);
-    // Interpolated values and nodes of wide cells are smooth already.
-    if own.width != 1 || sigma < 0.3 {
+    // Between the corners of cells wider than the filter light is smooth already.
+    let is_wide = own.width != 1 && f32::from(own.width) > sigma;
+    if is_wide || sigma < 0.3 {
         return visit(index, 1.0);
     }
     let reach = (math::ceil(2.0 * sigma) as i32).min(REACH);

@@ -156,33 +156,33 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
         let texel = &self.texels.list[index];
         let (tile, place) = self.place_in_tile(texel);
         let flat = self.tracer.world.normals[texel.triangle as usize];
-        let mut halves = [Vec3A::ZERO; 2];
-        let mut inverse_distances = 0.0;
-        let mut seen = Vec::new();
-        for (half, sum) in halves.iter_mut().enumerate() {
-            let seed = hash(hash(seed, half as u32), tile);
+        let mut hits = Vec::with_capacity(rays as usize);
+        for half in 0..2 {
+            let seed = hash(hash(seed, half), tile);
             let sequence = Sobol::new(seed);
-            for k in place * (rays / 2)..(place + 1) * (rays / 2) {
+            hits.extend((place * (rays / 2)..(place + 1) * (rays / 2)).map(|k| {
                 let direction = above(cosine_direction(sequence.square(k), texel.normal), flat);
                 let ray = self.tracer.leave(texel.triangle, texel.position, flat, direction, f32::INFINITY);
-                let hit = self.tracer.nearest(&ray, hash(seed, k));
-                inverse_distances += hit.map_or(0.0, |hit| 1.0 / hit.distance.max(1e-6));
-                let column = (self.column)(hit.as_ref());
-                *sum += self.radiance[column as usize];
-                self.keep.push(column, &mut seen);
-            }
+                self.tracer.nearest(&ray, hash(seed, k))
+            }));
         }
-        self.tracer.count(rays as usize);
-        let half = (rays / 2) as f32;
-        let [a, b] = halves.map(|sum| sum / half);
+        self.tracer.count(hits.len());
+        // What is seen lies anywhere in memory: it is asked for at once, not between traversals.
+        let mut columns: Vec<u32> = hits.iter().map(|hit| (self.column)(hit.as_ref())).collect();
+        let half = columns.len() / 2;
+        let mean =
+            |columns: &[u32]| columns.iter().map(|&column| self.radiance[column as usize]).sum::<Vec3A>() / half as f32;
+        let (a, b) = (mean(&columns[..half]), mean(&columns[half..]));
+        let nearness = |hit: &Option<Hit>| hit.map_or(0.0, |hit| 1.0 / hit.distance.max(1e-6));
+        let inverse_distances: f32 = hits.iter().map(nearness).sum();
         let gathered = Gathered {
             irradiance: ((a + b) * 0.5).into(),
             variance: (a - b).length_squared() / 12.0,
-            distance: 2.0 * half / f32::max(inverse_distances, 1e-9),
+            distance: hits.len() as f32 / f32::max(inverse_distances, 1e-9),
             rays,
             width: 0,
         };
-        (gathered, Row::count(&mut seen))
+        (gathered, self.keep.row(&mut columns))
     }
 
     /// The tile of a texel, and its place on a Z-curve through the tile.

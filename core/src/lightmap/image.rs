@@ -26,7 +26,7 @@ pub struct LightmapImage {
 
 impl LightmapImage {
     /// The same picture with half as many texels in each direction, for a look at it: each is the mean of those of four
-    /// that know most of their light. A side of one texel stays.
+    /// that know most of their light. Where one of the four is invalid, so is it. A side of one texel stays.
     pub fn halved(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let (right, down) = ((self.width > 1) as usize, if self.height > 1 { self.width as usize } else { 0 });
@@ -46,7 +46,8 @@ impl LightmapImage {
             let share = 1.0 / alike().count() as f32;
             half.texels.push(alike().map(|at| self.texels[at]).sum::<Vec3>() * share);
             half.errors.push(alike().map(|at| self.errors[at]).sum::<f32>() * share);
-            half.states.push(self.states[best]);
+            let is_invalid = four.into_iter().any(|at| self.states[at] == TexelState::Invalid);
+            half.states.push(if is_invalid { TexelState::Invalid } else { self.states[best] });
             half.charts.push(self.charts[best]);
             half.patches.push(self.patches[best]);
         }
@@ -112,7 +113,7 @@ mod tests {
     use super::*;
     use alloc::vec;
 
-    /// Of four texels only those count that know most of their light.
+    /// Of four texels only those count that know most of their light; invalid ones are not forgotten.
     #[test]
     fn half_an_image() {
         use TexelState::{Empty, Gutter, Invalid, Valid};
@@ -128,7 +129,7 @@ mod tests {
         let half = image.halved();
         assert_eq!((half.width, half.height), (2, 1));
         assert_eq!(half.texels, [Vec3::splat(3.0), Vec3::splat(4.5)]);
-        assert_eq!((half.states, half.charts), (vec![Valid, Gutter], vec![1, 2]));
+        assert_eq!((half.states, half.charts), (vec![Invalid, Gutter], vec![1, 2]));
         assert_eq!(half.patches, [11, 12]);
         assert!((half.errors[0] - 0.3).abs() < 1e-6 && half.errors[1] == 0.0);
     }

@@ -142,7 +142,7 @@ impl Texels {
         hit: &Hit,
         is_valid: impl Fn(u32) -> bool,
     ) -> Option<u32> {
-        let point = hit.interpolate(self.corners[hit.triangle as usize]);
+        let point = hit.interpolate(self.places[hit.triangle as usize].corners);
         let Texel { pixel: [x, y], image, chart, .. } = self.list[own as usize];
         let side = |along: f32| if along - crate::math::floor(along) < 0.5 { -1 } else { 1 };
         let (dx, dy) = (side(point.x), side(point.y));

@@ -2,8 +2,8 @@
 
 mod atlas;
 mod blend;
-mod cells;
 mod blocks;
+mod cells;
 mod chart;
 mod clip;
 mod dilate;

@@ -199,7 +199,7 @@ impl Patches {
     pub fn add_triangles(&mut self, world: &World, texels: &Texels, size: f32) -> Range<usize> {
         let before = self.list.len();
         let mut keys: Vec<(ClusterKey, u32)> = (0..world.blockers as u32)
-            .filter(|&triangle| texels.images[triangle as usize] == NONE)
+            .filter(|&triangle| texels.places[triangle as usize].image == NONE)
             .map(|triangle| {
                 let normal = world.normals[triangle as usize];
                 let axis = normal.abs().max_position();

@@ -3,13 +3,16 @@
 use alloc::vec::Vec;
 
 use super::cells::Cell;
-use super::{Enough, Gather, Nodes, Smooth, filter};
+use super::{Enough, Gather, Gathered, Nodes, Smooth, filter};
 use crate::geometry::{Hit, Occluders};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 
 /// The first round whose rays are not those that nodes began with.
 const FIRST_ROUND: u32 = 2;
+
+/// So many rays bring a texel just to the error that is wanted; those that are worse keep a larger one with more rays.
+const BALANCED: f32 = 160.0;
 
 impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
     /// Doubles the rays of nodes, round after round, until they are enough.
@@ -60,7 +63,12 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
             }
             _ => false,
         };
-        let is_short = |&texel: &usize| errors[texel] > limit && gathered[texel].rays < self.settings.most_rays;
+        let is_short = |&texel: &usize| {
+            let Gathered { rays, width, .. } = gathered[texel];
+            let width = u32::from(width.max(1));
+            let gain = errors[texel] * (width * width) as f32 / rays as f32;
+            gain > limit / BALANCED && rays < self.settings.most_rays * width
+        };
         among.retain(|texel| !is_enough && is_short(texel));
         Ok(among)
     }

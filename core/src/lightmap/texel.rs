@@ -55,12 +55,19 @@ pub struct Texels {
     pub here: Range<usize>,
     /// Width and height of each image.
     pub sizes: Vec<[u32; 2]>,
-    /// For each triangle of the world its image, or [`NONE`].
-    pub images: Vec<u32>,
-    /// For each triangle of the world its corners in its image, in texels.
-    pub corners: Vec<[Vec2; 3]>,
+    /// For each triangle of the world where it lies in the images.
+    pub places: Vec<Place>,
     /// Which texels a wall parts; empty until [`super::check`] looks.
     pub links: Links,
+}
+
+/// Where a triangle lies in the images.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Its corners in its image, in texels.
+    pub corners: [Vec2; 3],
+    /// Its image, or [`NONE`].
+    pub image: u32,
 }
 
 /// What covers less of a texel than this is a rounding of the border of a chart, unless it is all there is of it.
@@ -113,11 +120,11 @@ impl Texels {
     /// The image, column and row that a hit falls on, whether the texels of that image are here or not.
     #[inline]
     pub fn place(&self, hit: &Hit) -> Option<(u32, [i32; 2])> {
-        let image = self.images[hit.triangle as usize];
+        let Place { corners, image } = self.places[hit.triangle as usize];
         if image == NONE {
             return None;
         }
-        let point = hit.interpolate(self.corners[hit.triangle as usize]);
+        let point = hit.interpolate(corners);
         Some((image, [point.x as i32, point.y as i32]))
     }
 
@@ -134,7 +141,7 @@ impl Texels {
 
     /// How the world position changes from one texel to the next, along a row and along a column of the image.
     pub fn steps(&self, world: &World, triangle: u32) -> [Vec3; 2] {
-        let [a, b, c] = self.corners[triangle as usize];
+        let [a, b, c] = self.places[triangle as usize].corners;
         let [p, q, r] = world.corners[triangle as usize];
         let (ab, ac) = (b - a, c - a);
         let determinant = ab.perp_dot(ac);
@@ -149,7 +156,7 @@ impl Texels {
     pub fn middle(&self, world: &World, texel: &Texel) -> Vec3 {
         let [right, down] = self.steps(world, texel.triangle);
         let (corner, flat) = (world.corners[texel.triangle as usize][0], world.normals[texel.triangle as usize]);
-        let center = Vec2::from(texel.pixel.map(f32::from)) + 0.5 - self.corners[texel.triangle as usize][0];
+        let center = Vec2::from(texel.pixel.map(f32::from)) + 0.5 - self.places[texel.triangle as usize].corners[0];
         let point = corner + right * center.x + down * center.y;
         point + flat * (texel.position - point).dot(flat)
     }
@@ -159,16 +166,15 @@ impl Texels {
             let surface = &world.scene.surfaces[source.surface as usize];
             let (placement, uv) = (layout.placements[source.surface as usize], &layout.uvs[surface.mesh]);
             let (Some(placement), Some(uv)) = (placement, uv) else {
-                self.images.push(NONE);
-                self.corners.push([Vec2::ZERO; 3]);
+                self.places.push(Place { corners: [Vec2::ZERO; 3], image: NONE });
                 continue;
             };
             let [width, height] = self.sizes[placement.image];
             let scale = Vec2::new(width as f32, height as f32);
             let corner =
                 |vertex: u32| (placement.min + uv.uv_1[vertex as usize] * (placement.max - placement.min)) * scale;
-            self.images.push(placement.image as u32);
-            self.corners.push(world.in_order(source, uv.triangles[source.triangle as usize].map(corner)));
+            let corners = world.in_order(source, uv.triangles[source.triangle as usize].map(corner));
+            self.places.push(Place { corners, image: placement.image as u32 });
         }
     }
 
@@ -179,7 +185,7 @@ impl Texels {
         for triangle in self.triangles_in(image..image + 1) {
             progress.check()?;
             let [p, q, r] = world.corners[triangle as usize];
-            let [a, b, c] = self.corners[triangle as usize];
+            let [a, b, c] = self.places[triangle as usize].corners;
             let pixels = 0.5 * (b - a).perp_dot(c - a).abs();
             let stretch = 0.5 * (q - p).cross(r - p).length() / pixels.max(f32::MIN_POSITIVE);
             let least = LEAST_SHARE * pixels.min(1.0);
@@ -244,7 +250,7 @@ impl Texels {
     /// The point of a triangle that stands for a texel: the center of the texel, or the centroid of what is covered.
     fn site(&self, triangle: u32, pixel: [u16; 2]) -> Hit {
         let corner = Vec2::new(f32::from(pixel[0]), f32::from(pixel[1]));
-        let local = self.corners[triangle as usize].map(|point| point - corner);
+        let local = self.places[triangle as usize].corners.map(|point| point - corner);
         let center = Vec2::splat(0.5);
         let point = match clip_to_unit_square(local) {
             Some((_, centroid)) if !contains(&local, center) => centroid,
@@ -273,16 +279,15 @@ impl Texels {
     /// The triangles that lie in some images.
     fn triangles_in(&self, images: Range<usize>) -> impl Iterator<Item = u32> + '_ {
         let is_in = move |image: u32| images.contains(&(image as usize));
-        (0..self.images.len() as u32).filter(move |&triangle| is_in(self.images[triangle as usize]))
+        (0..self.places.len() as u32).filter(move |&triangle| is_in(self.places[triangle as usize].image))
     }
 
     /// Calls `visit` with image, column, row and the corners of the triangle relative to each texel in its box.
     fn for_each_pixel(&self, triangle: u32, mut visit: impl FnMut(usize, u32, u32, [Vec2; 3])) {
-        let image = self.images[triangle as usize];
+        let Place { corners: [a, b, c], image } = self.places[triangle as usize];
         if image == NONE {
             return;
         }
-        let [a, b, c] = self.corners[triangle as usize];
         let [width, height] = self.sizes[image as usize];
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let (right, bottom) = (math::ceil(high.x).max(0.0) as u32, math::ceil(high.y).max(0.0) as u32);

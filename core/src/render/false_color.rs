@@ -32,6 +32,8 @@ const INVALID: [u8; 3] = [230, 30, 30];
 const GUTTER: [u8; 3] = [40, 70, 220];
 /// The two grays of neighboring texels.
 const GRAYS: [[u8; 3]; 2] = [[190, 190, 190], [110, 110, 110]];
+/// The same where another color is to be seen through them.
+const WHITES: [[u8; 3]; 2] = [[255; 3], [185; 3]];
 
 /// What a picture in false colors shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +42,8 @@ pub enum FalseColor {
     Density,
     /// The estimated error of each texel, up to 10 %.
     Error,
-    /// Each texel: gray were computed, red lie inside geometry and were filled in, blue are gutters.
+    /// Each texel: gray were computed, red lie inside geometry and were filled in, blue are gutters. A pixel in which a
+    /// ray meets a red one is red.
     Invalid,
     /// The step of light across each seam, up to 10 %, at the texels that it touches.
     Seams,
@@ -65,7 +68,7 @@ impl FalseColor {
         let lightmap = &bake.images[image];
         let texels = 0..lightmap.texels.len();
         match self {
-            Self::Density => texels.map(|at| checker(lightmap, at)).collect(),
+            Self::Density => texels.map(|at| checker(lightmap, at, WHITES)).collect(),
             Self::Error => texels.map(|at| of_error(lightmap, at)).collect(),
             Self::Invalid => texels.map(|at| of_state(lightmap, at)).collect(),
             Self::Seams => {
@@ -137,19 +140,35 @@ struct Picture<'a> {
     size: Vec2,
 }
 
+/// What one ray of a pixel finds.
+struct Sample {
+    color: Vec3,
+    /// Whether it must not be lost among the others.
+    stands_out: bool,
+}
+
 impl Picture<'_> {
-    /// The mean over a grid of rays.
+    /// The mean over a grid of rays; over those that meet invalid texels, where these are shown and some do, so that
+    /// single ones are not lost.
     fn pixel(&self, x: u32, y: u32) -> [u8; 3] {
-        let mut sum = Vec3::ZERO;
-        for sample in 0..SAMPLES * SAMPLES {
-            let within = (Vec2::new((sample % SAMPLES) as f32, (sample / SAMPLES) as f32) + 0.5) / SAMPLES as f32;
-            let ray = self.camera.ray((Vec2::new(x as f32, y as f32) + within) / self.size, self.size.x / self.size.y);
-            sum += match self.view.nearest(&ray, None) {
-                Some(hit) => self.shade(&hit, ray.direction.normalize_or_zero()) * self.color(&hit),
-                None => channels(NOTHING),
-            };
-        }
-        (sum / (SAMPLES * SAMPLES) as f32).to_array().map(|channel| (channel + 0.5) as u8)
+        let samples: [Sample; (SAMPLES * SAMPLES) as usize] = core::array::from_fn(|sample| {
+            let within = Vec2::new((sample as u32 % SAMPLES) as f32, (sample as u32 / SAMPLES) as f32) + 0.5;
+            self.sample((Vec2::new(x as f32, y as f32) + within / SAMPLES as f32) / self.size)
+        });
+        let any_stands_out = samples.iter().any(|sample| sample.stands_out);
+        let counting = || samples.iter().filter(|sample| sample.stands_out == any_stands_out);
+        let mean = counting().map(|sample| sample.color).sum::<Vec3>() / counting().count() as f32;
+        mean.to_array().map(|channel| (channel + 0.5) as u8)
+    }
+
+    fn sample(&self, at: Vec2) -> Sample {
+        let ray = self.camera.ray(at, self.size.x / self.size.y);
+        let Some(hit) = self.view.nearest(&ray, None) else {
+            return Sample { color: channels(NOTHING), stands_out: false };
+        };
+        let color = self.color(&hit);
+        let stands_out = self.shown == FalseColor::Invalid && color == channels(INVALID);
+        Sample { color: self.shade(&hit, ray.direction.normalize_or_zero()) * color, stands_out }
     }
 
     /// Between 0.6 at grazing and 1 at right angles.
@@ -178,10 +197,10 @@ fn channels(color: [u8; 3]) -> Vec3 {
     Vec3::from(color.map(f32::from))
 }
 
-/// Near white and a darker gray.
-fn checker(lightmap: &LightmapImage, at: usize) -> [u8; 3] {
+/// One of two colors, so that each texel differs from its neighbors.
+fn checker(lightmap: &LightmapImage, at: usize, colors: [[u8; 3]; 2]) -> [u8; 3] {
     let (column, row) = (at % lightmap.width as usize, at / lightmap.width as usize);
-    [[255; 3], [185; 3]][(column + row) % 2]
+    colors[(column + row) % 2]
 }
 
 fn of_error(lightmap: &LightmapImage, at: usize) -> [u8; 3] {
@@ -192,9 +211,8 @@ fn of_error(lightmap: &LightmapImage, at: usize) -> [u8; 3] {
 }
 
 fn of_state(lightmap: &LightmapImage, at: usize) -> [u8; 3] {
-    let (column, row) = (at % lightmap.width as usize, at / lightmap.width as usize);
     match lightmap.states[at] {
-        TexelState::Valid => GRAYS[(column + row) % 2],
+        TexelState::Valid => checker(lightmap, at, GRAYS),
         TexelState::Invalid => INVALID,
         TexelState::Gutter => GUTTER,
         TexelState::Empty => [0; 3],
@@ -251,6 +269,26 @@ mod tests {
         let texels = bake.images[0].texels.len() as u32;
         bake.seams = (0..texels).map(|texel| crate::lightmap::SeamTexel { image: 0, texel, step: 0.0 }).collect();
         assert!(near(middle(&bake, FalseColor::Seams), heat(0.0)));
+    }
+
+    /// A wall of which every eighth texel is invalid, with two texels for a pixel in each direction: none is lost.
+    #[test]
+    fn single_invalid_texels_are_seen() {
+        let (scene, mut bake) = baked(128.0);
+        for image in &mut bake.images {
+            let width = image.width as usize;
+            let is_invalid = |at: usize| at % width % 8 == 3 && at / width % 8 == 5;
+            image.states = (0..image.texels.len())
+                .map(|at| if is_invalid(at) { TexelState::Invalid } else { TexelState::Valid })
+                .collect();
+        }
+        let (transform, fov_y) = cornell_camera();
+        let camera = Camera::perspective(transform, fov_y);
+        let progress = Progress::default();
+        let rgb = false_color(&scene, &bake, &camera, [48, 48], FalseColor::Invalid, &progress).unwrap();
+        let count = rgb.iter().filter(|[red, green, _]| *red / 3 > *green).count();
+        assert!(count > 20, "{count}");
+        assert!(rgb.iter().all(|[red, green, _]| red.abs_diff(*green) < 6 || *red / 3 > *green), "they were mixed");
     }
 
     /// The most common density is green, four times less is blue, four times more is red.

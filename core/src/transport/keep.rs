@@ -2,6 +2,8 @@
 
 use alloc::vec::Vec;
 
+use super::Row;
+
 /// What is left of a bake beside its lightmaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keep {
@@ -13,12 +15,12 @@ pub enum Keep {
 }
 
 impl Keep {
-    /// Notes what a ray sees, where that is kept.
+    /// The row of a texel whose rays see these columns, where that is kept.
     #[inline]
-    pub(crate) fn push(self, column: u32, seen: &mut Vec<u32>) {
+    pub(crate) fn row(self, columns: &mut Vec<u32>) -> Row {
         match self {
-            Self::Lightmaps => {}
-            Self::Transport => seen.push(column),
+            Self::Lightmaps => Row::default(),
+            Self::Transport => Row::count(columns),
         }
     }
 }

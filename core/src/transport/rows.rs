@@ -90,9 +90,9 @@ impl From<Vec<Row>> for Rows {
 impl Rows {
     /// Puts more rows after these.
     pub fn append(&mut self, rows: Vec<Row>) {
-        self.ends.reserve_exact(rows.len());
-        self.entries.reserve_exact(rows.iter().map(|row| row.entries.len()).sum());
-        self.totals.reserve_exact(rows.len());
+        self.ends.reserve(rows.len());
+        self.entries.reserve(rows.iter().map(|row| row.entries.len()).sum());
+        self.totals.reserve(rows.len());
         for Row { entries, total } in rows {
             self.entries.extend(entries);
             self.ends.push(self.entries.len() as u64);

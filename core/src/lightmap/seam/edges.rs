@@ -1,6 +1,7 @@
 //! The edges at which charts end.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use glam::{Vec2, Vec3};
 
@@ -34,7 +35,7 @@ pub(super) struct Edge {
 impl Edge {
     fn new(world: &World, texels: &Texels, triangle: u32, first: usize) -> Self {
         let (second, third) = ((first + 1) % 3, (first + 2) % 3);
-        let (corners, in_image) = (&world.corners[triangle as usize], &texels.corners[triangle as usize]);
+        let (corners, in_image) = (&world.corners[triangle as usize], &texels.places[triangle as usize].corners);
         let normals = world.corner_normals(triangle);
         let ends = [corners[first], corners[second]];
         let along = (ends[1] - ends[0]).normalize_or_zero();
@@ -47,7 +48,7 @@ impl Edge {
             texels: ends_in_image,
             normals: [normals[first], normals[second]],
             height: across - along * across.dot(along),
-            image: texels.images[triangle as usize],
+            image: texels.places[triangle as usize].image,
             tolerance: (TOLERANCE * texel).min(WIDEST_GAP).max(4.0 * world.lift(triangle)),
         }
     }
@@ -62,16 +63,16 @@ impl Edge {
     }
 }
 
-/// All edges that no other triangle shares in the lightmaps whose texels are here.
-pub(super) fn open(world: &World, texels: &Texels) -> Vec<Edge> {
+/// All edges that no other triangle shares in these lightmaps.
+pub(super) fn open(world: &World, texels: &Texels, images: &Range<usize>) -> Vec<Edge> {
     let mut keys: Vec<([u32; 5], u32)> = Vec::new();
-    let is_here = |triangle: usize| texels.here.contains(&(texels.images[triangle] as usize));
-    for (triangle, corners) in texels.corners.iter().enumerate().filter(|(triangle, _)| is_here(*triangle)) {
-        let bits = corners.map(|corner| corner.to_array().map(f32::to_bits));
+    let is_wanted = |triangle: usize| images.contains(&(texels.places[triangle].image as usize));
+    for (triangle, place) in texels.places.iter().enumerate().filter(|(triangle, _)| is_wanted(*triangle)) {
+        let bits = place.corners.map(|corner| corner.to_array().map(f32::to_bits));
         keys.extend((0..3).map(|first| {
             let (a, b) = (bits[first], bits[(first + 1) % 3]);
             let [low, high] = [a.min(b), a.max(b)];
-            ([texels.images[triangle], low[0], low[1], high[0], high[1]], (3 * triangle + first) as u32)
+            ([place.image, low[0], low[1], high[0], high[1]], (3 * triangle + first) as u32)
         }));
     }
     keys.sort_unstable();

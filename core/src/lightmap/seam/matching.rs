@@ -47,12 +47,13 @@ struct Common<'a> {
 }
 
 impl<O: Occluders> Matching<'_, '_, O> {
-    /// The points at which an edge meets those after it.
-    pub fn meetings(&self, index: usize) -> Vec<Meeting> {
+    /// The points at which an edge meets those after it, where their images count.
+    pub fn meetings(&self, index: usize, counts: impl Fn([u32; 2]) -> bool) -> Vec<Meeting> {
         let edge = &self.edges[index];
         let others = self.tree.near(edge.ends, edge.tolerance);
         let after = others.into_iter().filter(|&other| other as usize > index);
-        let common = after.filter_map(|other| Common::new(edge, &self.edges[other as usize]));
+        let others = after.map(|other| &self.edges[other as usize]).filter(|other| counts([edge.image, other.image]));
+        let common = others.filter_map(|other| Common::new(edge, other));
         common.flat_map(|common| self.points(&common)).collect()
     }
 

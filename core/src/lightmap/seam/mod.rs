@@ -9,6 +9,7 @@ mod matching;
 mod tree;
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use glam::Vec2;
 
@@ -66,16 +67,17 @@ impl Seams {
         workers: &Workers,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
-        let edges = edges::open(tracer.world, texels);
+        let edges = edges::open(tracer.world, texels, &texels.here);
         let tree = tree::Tree::new(&edges);
         let matching = Matching { edges: &edges, tree: &tree, tracer };
-        let meetings: Vec<Meeting> =
-            workers.map(edges.len(), 64, progress, |range| range.flat_map(|edge| matching.meetings(edge)).collect())?;
+        let meetings: Vec<Meeting> = workers.map(edges.len(), 64, progress, |range| {
+            range.flat_map(|edge| matching.meetings(edge, |_| true)).collect()
+        })?;
         let numbering = Numbering { texels, is_valid, errors, usual: mean_square(errors), tracer };
         numbering.seams(&meetings, workers, progress)
     }
 
-    /// Makes both sides of all seams agree in the images of those texels.
+    /// Makes both sides of all seams agree in the images of those texels, which belong to a bake of this mean light.
     ///
     /// # Errors
     ///
@@ -83,10 +85,10 @@ impl Seams {
     pub fn solve(
         &self,
         images: &mut [LightmapImage],
+        mean: f32,
         workers: &Workers,
         progress: &Progress,
     ) -> Result<SeamReport, Cancelled> {
-        let mean = mean_light(images);
         let mut light = self.gather(images.iter().map(|image| &image.texels[..]));
         let before = self.steps(&light, mean);
         SeamSolver::new(self, workers, progress)?.solve(&mut light, workers, progress)?;
@@ -102,21 +104,38 @@ impl Seams {
     }
 }
 
-/// The texels at which seams are seen, with the steps that are left there; `first` is the number of the first of these
-/// images.
-pub fn seam_texels(seams: &Seams, images: &[LightmapImage], first: usize) -> Vec<SeamTexel> {
-    let light = seams.gather(images.iter().map(|image| &image.texels[..]));
-    let steps = seams.texel_steps(&light, mean_light(images));
-    steps.into_iter().map(|texel| SeamTexel { image: first as u32 + texel.image, ..texel }).collect()
+/// The number of points at which seams between images of different groups are seen: what [`Seams::new`] cannot find while
+/// the texels of one group are here.
+///
+/// # Errors
+///
+/// Where the progress was told to cancel.
+pub fn split_seams<O: Occluders>(
+    groups: &[Range<usize>],
+    texels: &Texels,
+    tracer: &Tracer<O>,
+    workers: &Workers,
+    progress: &Progress,
+) -> Result<usize, Cancelled> {
+    if groups.len() < 2 {
+        return Ok(0);
+    }
+    let edges = edges::open(tracer.world, texels, &(0..texels.sizes.len()));
+    let tree = tree::Tree::new(&edges);
+    let matching = Matching { edges: &edges, tree: &tree, tracer };
+    let group = |image: u32| groups.iter().position(|group| group.contains(&(image as usize)));
+    let is_split = |images: [u32; 2]| group(images[0]) != group(images[1]);
+    let counts = workers
+        .map(edges.len(), 64, progress, |range| range.map(|edge| matching.meetings(edge, is_split).len()).collect())?;
+    Ok(counts.into_iter().sum())
 }
 
-/// The mean of all valid texels and channels.
-fn mean_light(images: &[LightmapImage]) -> f32 {
-    let texels = images.iter().flat_map(|image| image.texels.iter().zip(&image.states));
-    let valid = texels.filter(|(_, state)| **state == super::TexelState::Valid);
-    let (sum, count) = valid
-        .fold((0.0_f64, 0_usize), |(sum, count), (texel, _)| (sum + f64::from(texel.element_sum() / 3.0), count + 1));
-    (sum / count.max(1) as f64) as f32
+/// The texels at which seams are seen, with the steps that are left there in a bake of this mean light; `first` is the
+/// number of the first of these images.
+pub fn seam_texels(seams: &Seams, images: &[LightmapImage], mean: f32, first: usize) -> Vec<SeamTexel> {
+    let light = seams.gather(images.iter().map(|image| &image.texels[..]));
+    let steps = seams.texel_steps(&light, mean);
+    steps.into_iter().map(|texel| SeamTexel { image: first as u32 + texel.image, ..texel }).collect()
 }
 
 /// Gives touched texels their numbers.
