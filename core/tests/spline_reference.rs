@@ -23,6 +23,9 @@ impl Numbers<'_> {
     }
 }
 
+/// A point with its derivatives, found in three ways.
+type Found = (Jet<DVec3>, [DVec3; 3], DVec3);
+
 #[test]
 fn curves_equal_those_of_scipy_and_geomdl() {
     let cases: Vec<&str> = CASES.lines().filter_map(|line| line.strip_prefix("curve ")).collect();
@@ -35,7 +38,7 @@ fn curves_equal_those_of_scipy_and_geomdl() {
         let points = numbers.points(count);
         let weights = numbers.list(if is_rational { count } else { 0 });
         let weighted: Vec<_> = points.iter().zip(&weights).map(|(&point, &w)| Homogeneous::new(point, w)).collect();
-        let curve: Box<dyn Fn(f64) -> (Jet<DVec3>, [DVec3; 3], DVec3)> = if is_rational {
+        let curve: Box<dyn Fn(f64) -> Found> = if is_rational {
             let curve = Nurbs::new(knots, &weighted).unwrap();
             Box::new(move |t| (curve.at(t), with_derivatives(|to| curve.derivatives(t, to)), curve.point(t)))
         } else {

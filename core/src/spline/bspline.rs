@@ -40,7 +40,7 @@ impl<'a, P: ControlPoint> BSpline<'a, P> {
         let count = knots.count().saturating_sub(knots.degree()).max(1);
         let all = knots.knots();
         let slack = P::Scalar::EPSILON * P::Scalar::from_f64(16.0) * (start.abs() + end.abs());
-        let breaks = |&i: &usize| !(((all[i] - all[i - count]) - (end - start)).abs() <= slack);
+        let breaks = |&i: &usize| ((all[i] - all[i - count]) - (end - start)).abs() > slack;
         match (count..all.len()).find(breaks) {
             Some(index) => Err(SplineError::NotPeriodic { index }),
             None => Self::checked(knots, points, count),

@@ -162,7 +162,7 @@ impl<R: Real> Band<'_, R> {
         let tiny = R::EPSILON * (0..n).map(|i| self.value(i, i).abs()).fold(R::ZERO, R::max);
         for k in 0..n {
             let pivot = self.value(k, k);
-            if !(pivot.abs() > tiny) {
+            if pivot.abs() <= tiny {
                 return Err(SplineError::Singular { index: k });
             }
             let reach = (k + half).min(n - 1);

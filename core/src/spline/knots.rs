@@ -159,6 +159,6 @@ pub fn uniform_knots<R: Real>(knots: &mut [R], degree: usize) {
     }
 }
 
-fn is_finite<R: Real>(x: R) -> bool {
+pub(super) fn is_finite<R: Real>(x: R) -> bool {
     x.abs() < R::INFINITY
 }
