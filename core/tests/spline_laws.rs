@@ -321,8 +321,9 @@ fn pieces_join_as_smoothly_as_their_knots_say() {
         let mut derivatives = [[DVec3::ZERO; 7]; 2];
         Bezier::new(&pieces[0]).unwrap().derivatives(1.0, &mut derivatives[0]);
         Bezier::new(&pieces[1]).unwrap().derivatives(0.0, &mut derivatives[1]);
-        for order in 0..=degree {
-            let step = (derivatives[0][order] - derivatives[1][order]).length();
+        let [before, after] = derivatives;
+        for (order, (before, after)) in before.iter().zip(after).enumerate().take(degree + 1) {
+            let step = (*before - after).length();
             let is_continuous = order <= degree - multiplicity;
             assert_eq!(step < 1e-10, is_continuous, "degree {degree}, knot {multiplicity} times, order {order}");
         }
