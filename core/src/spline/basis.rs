@@ -35,7 +35,9 @@ pub(super) fn cox_de_boor<R: Real, const N: usize>(window: &[R], degree: usize, 
     let mut values = [R::ZERO; N];
     values[0] = R::ONE;
     let window = &window[..2 * degree];
-    (0..degree).for_each(|j| raise(window, degree, j + 1, t, &mut values));
+    for j in 1..degree + 1 {
+        raise(window, degree, j, t, &mut values);
+    }
     values
 }
 

@@ -14,6 +14,9 @@ pub struct KnotVector<'a, R> {
     degree: usize,
 }
 
+/// So many knots are counted faster than searched: no step waits for the one before it.
+const FEW: usize = 24;
+
 impl<'a, R: Real> KnotVector<'a, R> {
     /// Any knots: clamped, uniform, periodic or with multiple ones.
     ///
@@ -79,7 +82,14 @@ impl<'a, R: Real> KnotVector<'a, R> {
         let [start, end] = self.domain();
         let t = if t > start { t } else { start };
         let inner = &self.knots[self.degree + 1..self.count()];
-        self.degree + inner.partition_point(|&knot| knot <= t && knot < end)
+        // Without a branch, which no processor could guess.
+        let is_before = |knot: R| (knot <= t) & (knot < end);
+        self.degree
+            + if inner.len() <= FEW {
+                inner.iter().map(|&knot| usize::from(is_before(knot))).sum::<usize>()
+            } else {
+                inner.partition_point(|&knot| is_before(knot))
+            }
     }
 
     /// As [`span`](Self::span), but faster where `near` is the answer, or the one before it.
