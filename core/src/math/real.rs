@@ -44,9 +44,10 @@ pub trait Real:
     /// The same number in double precision.
     fn to_f64(self) -> f64;
     /// The nearest number to a count.
-    fn from_usize(count: usize) -> Self {
-        Self::from_f64(count as f64)
-    }
+    fn from_usize(count: usize) -> Self;
+
+    /// The whole part of a number; 0 below 0 and for NaN.
+    fn to_usize(self) -> usize;
 
     /// Magnitude.
     fn abs(self) -> Self;
@@ -109,8 +110,16 @@ macro_rules! real {
                 x as Self
             }
             #[inline]
+            fn from_usize(count: usize) -> Self {
+                count as Self
+            }
+            #[inline]
             fn to_f64(self) -> f64 {
                 f64::from(self)
+            }
+            #[inline]
+            fn to_usize(self) -> usize {
+                self as usize
             }
             #[inline]
             fn abs(self) -> Self {

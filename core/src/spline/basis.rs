@@ -34,7 +34,10 @@ impl<R: Real> KnotVector<'_, R> {
 pub(super) fn cox_de_boor<R: Real, const N: usize>(window: &[R], degree: usize, t: R) -> [R; N] {
     let mut values = [R::ZERO; N];
     values[0] = R::ONE;
-    raise(window, degree, degree, t, &mut values);
+    let window = &window[..2 * degree];
+    for j in 1..degree + 1 {
+        raise(window, degree, j, t, &mut values);
+    }
     values
 }
 
@@ -46,26 +49,47 @@ pub(super) fn cox_de_boor_derivative<R: Real, const N: usize>(window: &[R], degr
         return values;
     }
     values[0] = R::ONE;
-    raise(window, degree, degree - k, t, &mut values);
-    (degree - k + 1..=degree).for_each(|j| differentiate(window, degree, j, &mut values));
+    (0..degree - k).for_each(|j| raise(window, degree, j + 1, t, &mut values));
+    (degree - k + 1..degree + 1).for_each(|j| differentiate(window, degree, j, &mut values));
     values
 }
 
-/// From the basis functions of degree 0 to those of degree `to`.
-///
-/// `N_i^j = (t - u_i) / (u_(i+j) - u_i) N_i^(j-1) + (u_(i+j+1) - t) / (u_(i+j+1) - u_(i+1)) N_(i+1)^(j-1)`
+/// The values and the first and second derivatives.
 #[inline(always)]
-fn raise<R: Real>(window: &[R], degree: usize, to: usize, t: R, values: &mut [R]) {
-    for j in 1..=to {
-        let mut saved = R::ZERO;
-        for r in 0..j {
-            let (low, high) = (window[degree - j + r], window[degree + r]);
-            let share = values[r] / (high - low);
-            values[r] = saved + (high - t) * share;
-            saved = (t - low) * share;
+pub(super) fn cox_de_boor_jet<R: Real, const N: usize>(window: &[R], degree: usize, t: R) -> [[R; N]; 3] {
+    let mut values = [R::ZERO; N];
+    let (mut first, mut second) = (values, values);
+    values[0] = R::ONE;
+    let window = &window[..2 * degree];
+    for j in 1..degree + 1 {
+        if j + 1 == degree {
+            second = values;
+            differentiate(window, degree, j, &mut second);
         }
-        values[j] = saved;
+        if j == degree {
+            first = values;
+            differentiate(window, degree, j, &mut first);
+            differentiate(window, degree, j, &mut second);
+        }
+        raise(window, degree, j, t, &mut values);
     }
+    [values, first, second]
+}
+
+/// From the basis functions of degree `j - 1` to those of degree `j`.
+///
+/// `N_i^j = (t - u_i) / (u_(i+j) - u_i) N_i^(j-1) + (u_(i+j+1) - t) / (u_(i+j+1) - u_(i+1)) N_(i+1)^(j-1)`; the
+/// reciprocals do not wait for the values.
+#[inline(always)]
+fn raise<R: Real>(window: &[R], degree: usize, j: usize, t: R, values: &mut [R]) {
+    let mut saved = R::ZERO;
+    for r in 0..j {
+        let (low, high) = (window[degree - j + r], window[degree + r]);
+        let share = values[r] * (R::ONE / (high - low));
+        values[r] = saved + (high - t) * share;
+        saved = (t - low) * share;
+    }
+    values[j] = saved;
 }
 
 /// From derivatives of basis functions of degree `j - 1` to those of degree `j`, of an order higher by one.
@@ -75,7 +99,8 @@ fn raise<R: Real>(window: &[R], degree: usize, to: usize, t: R, values: &mut [R]
 fn differentiate<R: Real>(window: &[R], degree: usize, j: usize, values: &mut [R]) {
     let mut saved = R::ZERO;
     for r in 0..j {
-        let share = values[r] * R::from_usize(j) / (window[degree + r] - window[degree - j + r]);
+        let reciprocal = R::ONE / (window[degree + r] - window[degree - j + r]);
+        let share = values[r] * (reciprocal * R::from_usize(j));
         values[r] = saved - share;
         saved = share;
     }

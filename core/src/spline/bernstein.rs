@@ -25,7 +25,7 @@ pub fn bernstein<R: Real>(values: &mut [R], t: R) {
 /// In as many steps as there are points: Horner's scheme on the powers of `t` that multiplies with `1 - t` in each step;
 /// for `t` in `[0, 1]` all terms have factors that are not negative, so that nothing is lost to cancellation. Farin,
 /// "Curves and Surfaces for CAGD", section 5.6.
-#[inline]
+#[inline(always)]
 pub(super) fn bernstein_sum<V: VectorSpace>(points: &[V], t: V::Scalar) -> V {
     let s = V::Scalar::ONE - t;
     match *points {
@@ -37,17 +37,20 @@ pub(super) fn bernstein_sum<V: VectorSpace>(points: &[V], t: V::Scalar) -> V {
             let (tt, three) = (t * t, V::Scalar::from_f64(3.0));
             ((a * s + b * (three * t)) * s + c * (three * tt)) * s + d * (tt * t)
         }
-        [first, .., last] => {
-            let mut sum = first * s;
-            let mut power = t;
-            let binomials = &PASCAL[(points.len() - 1).min(MAX_DEGREE)][1..];
-            for (&point, &binomial) in points[1..points.len() - 1].iter().zip(binomials) {
-                sum = (sum + point * (power * V::Scalar::from_f64(binomial))) * s;
-                power *= t;
-            }
-            sum + last * power
-        }
+        _ => horner(points, t),
     }
+}
+
+fn horner<V: VectorSpace>(points: &[V], t: V::Scalar) -> V {
+    let [first, inner @ .., last] = points else { return V::default() };
+    let s = V::Scalar::ONE - t;
+    let (mut sum, mut power) = (*first * s, t);
+    let binomials = &PASCAL[(inner.len() + 1).min(MAX_DEGREE)][1..];
+    for (&point, &binomial) in inner.iter().zip(binomials) {
+        sum = (sum + point * (power * V::Scalar::from_f64(binomial))) * s;
+        power *= t;
+    }
+    sum + *last * power
 }
 
 /// The binomial coefficients `C(n, i)`.

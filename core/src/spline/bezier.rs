@@ -85,12 +85,22 @@ impl<'a, P: ControlPoint> Bezier<'a, P> {
     ///
     /// The three points of the last but two rounds of de Casteljau's construction, each from its own sum, so that the
     /// number of steps stays proportional to the degree.
+    #[inline]
     pub fn at(&self, t: P::Scalar) -> Jet<P::Point> {
         let n = P::Scalar::from_usize(self.degree());
         P::project_jet(match *self.0 {
             [] => Jet::default(),
             [a] => Jet { point: a, ..Jet::default() },
             [a, b] => Jet { point: bernstein_sum(&[a, b], t), first: b - a, second: P::default() },
+            [a, b, c, d] => {
+                let [ab, bc, cd] = [[a, b], [b, c], [c, d]].map(|pair| bernstein_sum(&pair, t));
+                let [abc, bcd] = [[ab, bc], [bc, cd]].map(|pair| bernstein_sum(&pair, t));
+                Jet {
+                    point: bernstein_sum(&[abc, bcd], t),
+                    first: (bcd - abc) * n,
+                    second: ((cd - bc) - (bc - ab)) * (n + n),
+                }
+            }
             [_, _, ref inner @ ..] => {
                 let [a, b, c] = [0, 1, 2].map(|i| bernstein_sum(&self.0[i..i + inner.len()], t));
                 let (ab, bc) = (b - a, c - b);
@@ -140,6 +150,16 @@ impl<P: ControlPoint> Curve for Bezier<'_, P> {
     #[inline]
     fn point(&self, t: P::Scalar) -> P::Point {
         self.point(t)
+    }
+    #[inline]
+    fn speed(&self, t: P::Scalar) -> P::Scalar {
+        let [before, after] = match *self.0 {
+            [] | [_] => return P::Scalar::ZERO,
+            [a, b, c, d] => [bernstein_sum(&[a, b, c], t), bernstein_sum(&[b, c, d], t)],
+            [_, ref inner @ ..] => [0, 1].map(|i| bernstein_sum(&self.0[i..i + inner.len()], t)),
+        };
+        let first = (after - before) * P::Scalar::from_usize(self.degree());
+        P::project_jet(Jet { point: bernstein_sum(&[before, after], t), first, second: P::default() }).first.length()
     }
 }
 

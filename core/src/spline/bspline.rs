@@ -1,6 +1,6 @@
 //! B-spline curves: pieces of polynomials that join smoothly.
 
-use super::basis::{cox_de_boor, cox_de_boor_derivative};
+use super::basis::{cox_de_boor, cox_de_boor_derivative, cox_de_boor_jet};
 use super::bezier::MAX_ORDER;
 use super::control_point::check_points;
 use super::{ControlPoint, Curve, Homogeneous, Jet, KnotVector, SplineError};
@@ -40,7 +40,7 @@ impl<'a, P: ControlPoint> BSpline<'a, P> {
         let count = knots.count().saturating_sub(knots.degree()).max(1);
         let all = knots.knots();
         let slack = P::Scalar::EPSILON * P::Scalar::from_f64(16.0) * (start.abs() + end.abs());
-        let breaks = |&i: &usize| !(((all[i] - all[i - count]) - (end - start)).abs() <= slack);
+        let breaks = |&i: &usize| ((all[i] - all[i - count]) - (end - start)).abs() > slack;
         match (count..all.len()).find(breaks) {
             Some(index) => Err(SplineError::NotPeriodic { index }),
             None => Self::checked(knots, points, count),
@@ -164,18 +164,21 @@ impl<'a, P: ControlPoint> BSpline<'a, P> {
 
     #[inline(always)]
     fn jet_of<const N: usize>(&self, degree: usize, span: usize, t: P::Scalar) -> Jet<P> {
-        let window = self.knots.around(span);
-        let of = |k| self.weighted::<N>(span, degree, &cox_de_boor_derivative(window, degree, k, t));
-        Jet { point: of(0), first: of(1), second: of(2) }
+        let rows = cox_de_boor_jet(self.knots.around(span), degree, t);
+        let [point, first, second] = rows.map(|row| self.weighted::<N>(span, degree, &row));
+        Jet { point, first, second }
     }
 
     /// The sum of the control points of a span times `factors`.
     #[inline(always)]
     fn weighted<const N: usize>(&self, span: usize, degree: usize, factors: &[P::Scalar; N]) -> P {
         let first = span - degree;
-        match self.points.get(first..=span) {
-            Some(points) => points.iter().zip(factors).fold(P::default(), |sum, (&point, &b)| sum + point * b),
-            None => (0..=degree).fold(P::default(), |sum, i| sum + self.control(first + i) * factors[i]),
+        match self.points.get(first..first + degree + 1) {
+            Some(points) => {
+                let terms = points.iter().zip(factors).map(|(&point, &factor)| point * factor);
+                terms.reduce(|sum, term| sum + term).unwrap_or_default()
+            }
+            None => (0..degree + 1).fold(P::default(), |sum, i| sum + self.control(first + i) * factors[i]),
         }
     }
 }
@@ -193,6 +196,16 @@ impl<P: ControlPoint> Curve for BSpline<'_, P> {
     #[inline]
     fn point(&self, t: P::Scalar) -> P::Point {
         self.point(t)
+    }
+    fn speed(&self, t: P::Scalar) -> P::Scalar {
+        let t = self.wrapped(t);
+        let span = self.knots.span(t);
+        let jet = match self.degree() {
+            2 => self.jet_of::<3>(2, span, t),
+            3 => self.jet_of::<4>(3, span, t),
+            degree => self.jet_of::<MAX_ORDER>(degree, span, t),
+        };
+        P::project_jet(Jet { second: P::default(), ..jet }).first.length()
     }
     fn next_break(&self, t: P::Scalar) -> P::Scalar {
         self.knots.next_break(t)

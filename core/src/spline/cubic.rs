@@ -1,6 +1,7 @@
 //! Cubic pieces in all bases: powers, Bezier, Hermite, uniform B-spline, and exact ways between them.
 
-use super::{ControlPoint, Curve, Jet};
+use super::control_point::check_finite;
+use super::{ControlPoint, Curve, Jet, SplineError};
 use crate::math::{Real, VectorSpace};
 
 /// The cubic `a + b t + c t^2 + d t^3`: the form that is evaluated fastest.
@@ -90,6 +91,73 @@ impl<P: ControlPoint> Curve for Cubic<P> {
     #[inline]
     fn point(&self, t: P::Scalar) -> P::Point {
         self.point(t)
+    }
+    #[inline]
+    fn speed(&self, t: P::Scalar) -> P::Scalar {
+        self.at(t).first.length()
+    }
+}
+
+/// Cubics in a row on borrowed memory; piece `i` has the parameters from `i` to `i + 1`.
+///
+/// What a uniform B-spline, a Hermite spline or Bezier curves in a row are turned into where speed counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cubics<'a, P>(&'a [Cubic<P>]);
+
+impl<'a, P: ControlPoint> Cubics<'a, P> {
+    /// At least one piece.
+    ///
+    /// # Errors
+    ///
+    /// Where there is none, or a coordinate is not finite.
+    pub fn new(pieces: &'a [Cubic<P>]) -> Result<Self, SplineError> {
+        if pieces.is_empty() {
+            return Err(SplineError::Empty);
+        }
+        match pieces.iter().position(|piece| check_finite(&piece.0).is_err()) {
+            Some(index) => Err(SplineError::NotFinite { index }),
+            None => Ok(Self(pieces)),
+        }
+    }
+
+    /// The point at `t`; outside of the domain, on the continuation of the first or the last piece.
+    #[inline]
+    pub fn point(&self, t: P::Scalar) -> P::Point {
+        let (piece, t) = self.piece(t);
+        piece.point(t)
+    }
+
+    /// The point at `t` with its derivatives.
+    #[inline]
+    pub fn at(&self, t: P::Scalar) -> Jet<P::Point> {
+        let (piece, t) = self.piece(t);
+        piece.at(t)
+    }
+
+    /// The piece at a parameter, and its own parameter.
+    #[inline]
+    fn piece(&self, t: P::Scalar) -> (&'a Cubic<P>, P::Scalar) {
+        let index = t.to_usize().min(self.0.len() - 1);
+        (&self.0[index], t - P::Scalar::from_usize(index))
+    }
+}
+
+impl<P: ControlPoint> Curve for Cubics<'_, P> {
+    type Point = P::Point;
+
+    fn domain(&self) -> [P::Scalar; 2] {
+        [P::Scalar::ZERO, P::Scalar::from_usize(self.0.len())]
+    }
+    #[inline]
+    fn at(&self, t: P::Scalar) -> Jet<P::Point> {
+        self.at(t)
+    }
+    #[inline]
+    fn point(&self, t: P::Scalar) -> P::Point {
+        self.point(t)
+    }
+    fn next_break(&self, t: P::Scalar) -> P::Scalar {
+        P::Scalar::from_usize((t.to_usize() + usize::from(t >= P::Scalar::ZERO)).min(self.0.len()))
     }
 }
 

@@ -73,6 +73,11 @@ pub enum SplineError {
         /// Of the knot that differs from the one that stands a period before it.
         index: usize,
     },
+    /// Finer knots lack a knot.
+    MissingKnot {
+        /// Of the knot that they lack.
+        index: usize,
+    },
     /// A parameter lies outside of what it may be.
     Parameter {
         /// The parameter.
@@ -134,6 +139,9 @@ impl fmt::Display for SplineError {
             Self::EmptyDomain => write!(f, "the domain is empty; give it a larger last knot"),
             Self::NotPeriodic { index } => {
                 write!(f, "knot {index} breaks the period; repeat the distances of the first knots at the end")
+            }
+            Self::MissingKnot { index } => {
+                write!(f, "the finer knots lack knot {index}; give them all knots of the curve")
             }
             Self::Parameter { parameter, domain: [low, high] } => {
                 write!(f, "the parameter is {parameter}; give one in [{low}, {high}]")

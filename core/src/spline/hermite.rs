@@ -4,6 +4,7 @@
 //! tangents. All tangents are derivatives by the parameter, whose value at each point is its time.
 
 use super::control_point::check_finite;
+use super::knots::is_finite;
 use super::split::check_buffer;
 use super::{ControlPoint, Cubic, Curve, Jet, SplineError};
 use crate::math::{Real, VectorSpace};
@@ -383,7 +384,7 @@ impl<V: VectorSpace> C2<'_, V> {
         }
         for i in (0..n - 1).rev() {
             tangents[i] = tangents[i] - tangents[i + 1] * upper[i];
-            correction[i] = correction[i] - correction[i + 1] * upper[i];
+            correction[i] -= correction[i + 1] * upper[i];
         }
         let share = corner / gamma;
         let factor = V::Scalar::ONE / (V::Scalar::ONE + correction[0] + correction[n - 1] * share);
@@ -404,7 +405,7 @@ fn check_times<R: Real>(times: &[R], points: usize) -> Result<(), SplineError> {
         return Err(SplineError::PointCount { points, wanted: 2 });
     }
     check_buffer(times.len(), points)?;
-    if let Some(index) = times.iter().position(|time| !(time.abs() < R::INFINITY)) {
+    if let Some(index) = times.iter().position(|&time| !is_finite(time)) {
         return Err(SplineError::KnotNotFinite { index });
     }
     match times.windows(2).position(|pair| pair[1] <= pair[0]) {

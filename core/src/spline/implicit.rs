@@ -14,10 +14,10 @@ impl<P: ControlPoint> Bezier<'_, P> {
     pub fn implicit(&self, point: P::Point) -> P::Scalar {
         let n = self.degree();
         let mut bezout = [[P::Scalar::ZERO; MAX_DEGREE]; MAX_DEGREE];
-        for i in 0..n {
-            for j in 0..n {
+        for (i, row) in bezout[..n].iter_mut().enumerate() {
+            for (j, entry) in row[..n].iter_mut().enumerate() {
                 let least = (i + j + 1).saturating_sub(n);
-                bezout[i][j] = (least..=i.min(j)).map(|m| self.area(point, m, i + j + 1 - m)).sum();
+                *entry = (least..=i.min(j)).map(|m| self.area(point, m, i + j + 1 - m)).sum();
             }
         }
         determinant(&mut bezout[..n])
@@ -52,7 +52,7 @@ fn determinant<R: Real, const N: usize>(rows: &mut [[R; N]]) -> R {
         product *= pivot[k];
         for row in rest {
             let factor = row[k] / pivot[k];
-            (k..n).for_each(|j| row[j] = row[j] - factor * pivot[j]);
+            (k..n).for_each(|j| row[j] -= factor * pivot[j]);
         }
     }
     product

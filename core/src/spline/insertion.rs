@@ -34,23 +34,64 @@ impl<P: ControlPoint> BSpline<'_, P> {
     /// Writes the control points of the same curve on finer knots, which hold all of its own ones.
     ///
     /// Point `i` is the blossom of the curve at the knots `i + 1` to `i + degree`: the Oslo algorithm of Cohen, Lyche
-    /// and Riesenfeld 1980. Where an old knot is missing the curve is another one; knots outside of the domain may be
-    /// others, to clamp a curve or to cut a part out of it.
+    /// and Riesenfeld 1980, with as many rounds as there are new ones among them, which makes all steps interpolate
+    /// (Lyche and Morken 1986).
     ///
     /// # Errors
     ///
-    /// Where the degree is another one or the buffer does not fit.
+    /// Where the degree is another one, an old knot is missing, a new one lies outside of the domain, or the buffer does
+    /// not fit.
     pub fn refine(&self, finer: KnotVector<P::Scalar>, points: &mut [P]) -> Result<(), SplineError> {
-        let degree = self.degree();
+        let (old, degree) = (self.knots().knots(), self.degree());
         if finer.degree() != degree {
             return Err(SplineError::Degree { degree: finer.degree() });
         }
         check_buffer(points.len(), finer.count())?;
+        let mut passed = 0;
+        for &knot in finer.knots() {
+            // Of equal knots the old ones come first.
+            if old.get(passed) == Some(&knot) {
+                passed += 1;
+            } else if old.get(passed).is_some_and(|&missing| knot > missing) {
+                return Err(SplineError::MissingKnot { index: passed });
+            } else {
+                self.check_parameter(knot)?;
+            }
+        }
+        if passed < old.len() {
+            return Err(SplineError::MissingKnot { index: passed });
+        }
+        let mut passed = 0;
         for (i, point) in points.iter_mut().enumerate() {
-            let span = self.span_of(finer.knots(), degree, i);
-            *point = self.blossom(span, &finer.knots()[i + 1..=i + degree]);
+            passed += usize::from(old[passed] == finer.knots()[i]);
+            *point = self.oslo(passed, &finer.knots()[i + 1..=i + degree]);
         }
         Ok(())
+    }
+
+    /// The blossom at knots of which some are the next old ones after the first `passed` ones and all lie between two
+    /// others.
+    fn oslo(&self, passed: usize, arguments: &[P::Scalar]) -> P {
+        let (old, degree) = (self.knots().knots(), self.degree());
+        let (mut fresh, mut count, mut next) = ([P::Scalar::ZERO; MAX_ORDER], 0, passed);
+        for &knot in arguments {
+            if old.get(next) == Some(&knot) {
+                next += 1;
+            } else {
+                fresh[count] = knot;
+                count += 1;
+            }
+        }
+        let first = passed - 1 - count;
+        let mut points = [P::default(); MAX_ORDER];
+        (0..=count).for_each(|k| points[k] = self.control(first + k));
+        for (round, &knot) in fresh[..count].iter().enumerate() {
+            for k in 0..count - round {
+                let [low, high] = [first + k + round + 1, first + k + degree + 1].map(|index| old[index]);
+                points[k] = points[k].lerp(points[k + 1], (knot - low) / (high - low));
+            }
+        }
+        points[0]
     }
 
     /// Writes knots and control points of a curve with one knot less; returns how far it is away at most.
@@ -149,13 +190,18 @@ impl<P: ControlPoint> BSpline<'_, P> {
         points[0]
     }
 
-    /// The span of this curve that holds the first piece on which basis function `i` of finer knots acts.
+    /// The longest span of this curve of those on which basis function `i` of finer knots of a degree acts.
+    ///
+    /// From there the way to the knots of that function is the shortest, in lengths of the span.
     pub(super) fn span_of(&self, finer: &[P::Scalar], degree: usize, i: usize) -> usize {
-        let start = finer[degree];
-        let pieces = &finer[i..=i + degree + 1];
-        let begins = |pair: &[P::Scalar]| pair[0] < pair[1] && pair[0] >= start;
-        let first = pieces.windows(2).position(begins).unwrap_or(0);
-        self.knots().span(pieces[first])
+        let [start, end] = self.knots().domain();
+        let acts = |&span: &usize| {
+            let knots = self.knots().knots();
+            knots[span] < finer[i + degree + 1].min(end) && knots[span + 1] > finer[i].max(start)
+        };
+        let length = |span: usize| self.knots().knots()[span + 1] - self.knots().knots()[span];
+        let longer = |a: usize, b: usize| if length(b) > length(a) { b } else { a };
+        self.knots().spans().filter(acts).reduce(longer).unwrap_or(self.knots().span(finer[i]))
     }
 
     fn check_parameter(&self, t: P::Scalar) -> Result<(), SplineError> {

@@ -14,6 +14,9 @@ pub struct KnotVector<'a, R> {
     degree: usize,
 }
 
+/// So many knots are counted faster than searched: no step waits for the one before it.
+const FEW: usize = 24;
+
 impl<'a, R: Real> KnotVector<'a, R> {
     /// Any knots: clamped, uniform, periodic or with multiple ones.
     ///
@@ -79,7 +82,14 @@ impl<'a, R: Real> KnotVector<'a, R> {
         let [start, end] = self.domain();
         let t = if t > start { t } else { start };
         let inner = &self.knots[self.degree + 1..self.count()];
-        self.degree + inner.partition_point(|&knot| knot <= t && knot < end)
+        // Without a branch, which no processor could guess.
+        let is_before = |knot: R| (knot <= t) & (knot < end);
+        self.degree
+            + if inner.len() <= FEW {
+                inner.iter().map(|&knot| usize::from(is_before(knot))).sum::<usize>()
+            } else {
+                inner.partition_point(|&knot| is_before(knot))
+            }
     }
 
     /// As [`span`](Self::span), but faster where `near` is the answer, or the one before it.
@@ -131,9 +141,9 @@ impl<'a, R: Real> KnotVector<'a, R> {
     }
 
     /// The `2 degree` knots around a span: the ones that decide on its basis functions.
-    #[inline]
+    #[inline(always)]
     pub(super) fn around(&self, span: usize) -> &'a [R] {
-        &self.knots[span + 1 - self.degree..=span + self.degree]
+        &self.knots[span + 1 - self.degree..][..2 * self.degree]
     }
 }
 
@@ -159,6 +169,6 @@ pub fn uniform_knots<R: Real>(knots: &mut [R], degree: usize) {
     }
 }
 
-fn is_finite<R: Real>(x: R) -> bool {
+pub(super) fn is_finite<R: Real>(x: R) -> bool {
     x.abs() < R::INFINITY
 }

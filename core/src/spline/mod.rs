@@ -21,8 +21,11 @@ mod hermite;
 mod homogeneous;
 mod implicit;
 mod insertion;
+mod interpolation;
 mod knots;
 mod nearest;
+#[cfg(feature = "alloc")]
+mod owned;
 mod roots;
 mod split;
 mod surface;
@@ -42,8 +45,11 @@ pub use frame::*;
 pub use hermite::*;
 pub use homogeneous::*;
 pub use insertion::*;
+pub use interpolation::*;
 pub use knots::*;
 pub use nearest::*;
+#[cfg(feature = "alloc")]
+pub use owned::*;
 pub use roots::*;
 pub use surface::*;
 #[cfg(feature = "alloc")]

@@ -19,24 +19,30 @@ pub struct Nearest<V: VectorSpace> {
 
 /// How often a curve is cut in halves: bounds are off by the square of the length of the pieces.
 const DEEPEST: usize = 28;
+/// How many pieces are looked at: far more than a curve needs that does not run around the point.
+const MOST: usize = 1 << 13;
 
 impl<P: ControlPoint> Bezier<'_, P> {
     /// The point nearest to another one; of several, one of them.
     ///
     /// The nearest one of all, not only of its surroundings: branch and bound. In Bernstein form no value of the squared
-    /// distance is below its smallest coefficient, so that parts of the curve that cannot be nearer are left out. The
+    /// distance is below its smallest coefficient, so that parts of the curve that cannot be nearer are left out. Known to
+    /// be the nearest one after at most 8192 parts. The
     /// distance is right to rounding, the parameter to the square root of it where the curve runs around the point.
     pub fn nearest(&self, to: P::Point) -> Nearest<P::Point> {
-        let start = self.point(P::Scalar::ZERO);
-        let mut search = Search {
-            curve: *self,
-            to,
-            best: Nearest { parameter: P::Scalar::ZERO, point: start, distance: (start - to).length() },
-        };
+        let far = Nearest { distance: P::Scalar::INFINITY, ..Nearest::default() };
+        self.nearer(to, far)
+    }
+
+    /// The point nearest to another one, or the one known before if that one is.
+    fn nearer(&self, to: P::Point, best: Nearest<P::Point>) -> Nearest<P::Point> {
+        let mut search = Search { curve: *self, to, best, pieces: 0 };
         let mut points = [P::default(); MAX_ORDER];
         points[..=self.degree()].copy_from_slice(self.points());
-        search.improve(P::Scalar::ONE);
-        search.within(&mut points[..=self.degree()], [P::Scalar::ZERO, P::Scalar::ONE], 0);
+        let [start, end] = [P::Scalar::ZERO, P::Scalar::ONE];
+        search.improve(start);
+        search.improve(end);
+        search.within(&mut points[..=self.degree()], [start, end], 0);
         search.best
     }
 }
@@ -45,14 +51,24 @@ impl<P: ControlPoint> BSpline<'_, P> {
     /// The point nearest to another one; of several, one of them. As that of all its Bezier pieces.
     pub fn nearest(&self, to: P::Point) -> Nearest<P::Point> {
         let mut nearest = Nearest { distance: P::Scalar::INFINITY, ..Nearest::default() };
+        let ends = |span: usize| [0, 1].map(|i| self.knots().knots()[span + i]);
+        // A near point that is known early spares most pieces.
+        for [start, end] in self.knots().spans().map(ends) {
+            let parameter = (start + end) * P::Scalar::from_f64(0.5);
+            let point = self.point(parameter);
+            let distance = (point - to).length();
+            if distance < nearest.distance {
+                nearest = Nearest { parameter, point, distance };
+            }
+        }
         let mut points = [P::default(); MAX_ORDER];
         let points = &mut points[..=self.degree()];
         for span in self.knots().spans() {
             if self.bezier(span, points).is_err() {
                 continue;
             }
-            let [start, end] = [0, 1].map(|i| self.knots().knots()[span + i]);
-            let candidate = Bezier::trusted(points).nearest(to);
+            let [start, end] = ends(span);
+            let candidate = Bezier::trusted(points).nearer(to, nearest);
             if candidate.distance < nearest.distance {
                 nearest = Nearest { parameter: start + (end - start) * candidate.parameter, ..candidate };
             }
@@ -65,15 +81,16 @@ struct Search<'a, P: ControlPoint> {
     curve: Bezier<'a, P>,
     to: P::Point,
     best: Nearest<P::Point>,
+    pieces: usize,
 }
 
 impl<P: ControlPoint> Search<'_, P> {
     /// Looks for a nearer point in the part of the curve with these control points.
     fn within(&mut self, points: &mut [P], [from, to]: [P::Scalar; 2], depth: usize) {
-        let best = self.best.distance * (P::Scalar::ONE - P::Scalar::EPSILON * P::Scalar::from_f64(4.0));
-        if depth == DEEPEST || self.least_squared_distance(points) >= best * best {
+        if depth == DEEPEST || self.pieces == MOST || !self.may_be_nearer(points) {
             return;
         }
+        self.pieces += 1;
         let half = P::Scalar::from_f64(0.5);
         let middle = (from + to) * half;
         self.improve(self.newton(middle, [from, to]));
@@ -92,26 +109,24 @@ impl<P: ControlPoint> Search<'_, P> {
         }
     }
 
-    /// A bound: the smallest coefficient of `|weight (c - p)|^2` over the largest weight.
-    fn least_squared_distance(&self, points: &[P]) -> P::Scalar {
+    /// Whether `|weight (c - p)|^2 - (weight best)^2` has a negative coefficient: where it has none, no point is nearer.
+    fn may_be_nearer(&self, points: &[P]) -> bool {
         let n = points.len() - 1;
         let mut offsets = [P::Point::default(); MAX_ORDER];
-        let mut heaviest = P::Scalar::ZERO;
         for (offset, point) in offsets.iter_mut().zip(points) {
             *offset = (point.project() - self.to) * point.weight();
-            heaviest = heaviest.max(point.weight());
         }
-        let mut least = P::Scalar::INFINITY;
-        for k in 0..=2 * n {
-            let (mut sum, mut total) = (P::Scalar::ZERO, P::Scalar::ZERO);
-            for i in k.saturating_sub(n)..=k.min(n) {
-                let binomials = P::Scalar::from_f64(PASCAL[n][i] * PASCAL[n][k - i]);
-                sum += offsets[i].dot(offsets[k - i]) * binomials;
-                total += binomials;
-            }
-            least = least.min(sum / total);
-        }
-        least / (heaviest * heaviest)
+        let best = self.best.distance * self.best.distance;
+        let known = best * (P::Scalar::ONE - P::Scalar::EPSILON * P::Scalar::from_f64(32.0));
+        (0..=2 * n).any(|k| {
+            let pairs = k.saturating_sub(n)..=k.min(n);
+            let sum = pairs.map(|i| {
+                let j = k - i;
+                let excess = offsets[i].dot(offsets[j]) - points[i].weight() * points[j].weight() * known;
+                excess * P::Scalar::from_f64(PASCAL[n][i] * PASCAL[n][j])
+            });
+            sum.sum::<P::Scalar>() < P::Scalar::ZERO
+        })
     }
 
     /// A few steps towards `(c - p) c' = 0`, held in the interval.

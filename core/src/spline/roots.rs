@@ -53,7 +53,8 @@ pub fn bernstein_roots<R: Real + VectorSpace<Scalar = R>>(coefficients: &[R]) ->
         return Vec::new();
     }
     scratch[..coefficients.len()].copy_from_slice(coefficients);
-    let mut search = Search { roots: Vec::new(), noise: largest * R::EPSILON * R::from_usize(coefficients.len()) };
+    let mut search =
+        Search { roots: Vec::new(), noise: largest * R::EPSILON * R::from_usize(coefficients.len()), blur: R::ZERO };
     search.within(&mut scratch[..coefficients.len()], [R::ZERO, R::ONE], DEEPEST);
     search.roots
 }
@@ -62,19 +63,22 @@ struct Search<R> {
     roots: Roots<R>,
     /// Coefficients below this are rounding errors.
     noise: R,
+    /// How well the root found last is known.
+    blur: R,
 }
 
 impl<R: Real + VectorSpace<Scalar = R>> Search<R> {
     fn within(&mut self, coefficients: &mut [R], [from, to]: [R; 2], depth: usize) {
         let last = coefficients.len() - 1;
-        if coefficients[0] == R::ZERO {
+        let [starts, ends] = [coefficients[0], coefficients[last]].map(|c| c.abs() <= self.noise);
+        if starts {
             self.found(from, R::ZERO);
         }
         let half = R::from_f64(0.5);
         let is_noise = coefficients.iter().all(|c| c.abs() <= self.noise);
-        match sign_changes(coefficients) {
+        match self.sign_changes(coefficients) {
             0 => {}
-            1 if coefficients[0] * coefficients[last] < R::ZERO => {
+            1 if !starts && !ends => {
                 self.found(from + (to - from) * single(coefficients), R::ZERO);
             }
             _ if depth == 0 || is_noise => self.found((from + to) * half, to - from),
@@ -85,24 +89,26 @@ impl<R: Real + VectorSpace<Scalar = R>> Search<R> {
                 self.within(coefficients, [middle, to], depth - 1);
             }
         }
-        if coefficients[last] == R::ZERO && to == R::ONE {
+        if ends && to == R::ONE {
             self.found(to, R::ZERO);
         }
     }
 
+    /// Of coefficients that are more than rounding errors.
+    fn sign_changes(&self, coefficients: &[R]) -> usize {
+        let signs = coefficients.iter().filter(|&&c| c.abs() > self.noise).map(|&c| c > R::ZERO);
+        signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b).count()
+    }
+
     /// A root known to `width`, if it is not the one found last.
     fn found(&mut self, root: R, width: R) {
-        let slack = R::EPSILON * R::from_f64(64.0) + width + width;
+        self.blur = self.blur.max(width);
+        let slack = R::EPSILON * R::from_f64(64.0) + self.blur + self.blur;
         if self.roots.last().is_none_or(|&last| root - last > slack) {
             // A full list cannot be: there are at most as many roots as the degree.
             let _ = self.roots.push(root);
         }
     }
-}
-
-fn sign_changes<R: Real>(coefficients: &[R]) -> usize {
-    let signs = coefficients.iter().filter(|&&c| c != R::ZERO).map(|&c| c > R::ZERO);
-    signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b).count()
 }
 
 /// The only root of a polynomial that has other signs at 0 and 1.

@@ -34,9 +34,6 @@ pub enum Direction {
     V,
 }
 
-/// So many knots are counted faster than searched.
-const FEW: usize = 16;
-
 impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
     /// A surface with knots along `u` and `v` and rows of control points, each as long as the knots along `u` say.
     ///
@@ -210,7 +207,7 @@ impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
 
     #[inline]
     fn spans_at(&self, u: P::Scalar, v: P::Scalar) -> [usize; 2] {
-        [span(&self.knots[0], u), span(&self.knots[1], v)]
+        [self.knots[0].span(u), self.knots[1].span(v)]
     }
 
     /// The parts of the rows that have an influence in an interval of knots.
@@ -227,16 +224,4 @@ impl<'a, V: crate::math::Vector> NurbsSurface<'a, V> {
     pub fn weights(&self) -> impl Iterator<Item = V::Scalar> + use<'a, V> {
         self.points.iter().map(|point| point.weight())
     }
-}
-
-/// [`KnotVector::span`] without a branch for a few knots, which no processor could guess.
-#[inline]
-fn span<R: Real>(knots: &KnotVector<R>, t: R) -> usize {
-    let inner = &knots.knots()[knots.degree() + 1..knots.count()];
-    if inner.len() > FEW {
-        return knots.span(t);
-    }
-    let [start, end] = knots.domain();
-    let t = if t > start { t } else { start };
-    knots.degree() + inner.iter().map(|&knot| usize::from(knot <= t) & usize::from(knot < end)).sum::<usize>()
 }
