@@ -207,7 +207,7 @@ class Comparison:
         if any(run["rms"] <= verdict.GOAL_ERROR for run in known) or any(run["samples"] < samples / 4 for run in known[-1:]):
             return
         takes = max((run["seconds"] * samples / run["samples"] for run in known), default=0)
-        if takes > end - time.monotonic():
+        if known and takes > end - time.monotonic():
             print(f"  Cycles, {mode}, {samples} samples: left out, would take up to {takes:.0f} s")
         else:
             self.cycles(mode, samples)

@@ -57,7 +57,18 @@ def of_scene(ours, cycles):
     run = reached or min(ours, key=lambda run: run["rms"])
     against = error if reached else max(error, run["rms"])
     seconds = seconds_at(against, cycles)
-    return {"error": against, "reached": reached is not None, "ours": run, "cycles_seconds": seconds, "ratio": seconds / run["seconds"]}
+    found = {"error": against, "reached": reached is not None, "ours": run, "cycles_seconds": seconds}
+    return found | {"ratio": seconds / run["seconds"], "median_ratio": median_ratio(run, cycles)}
+
+
+def median_ratio(run, cycles):
+    """How much longer Cycles takes for the median error of a run of ours.
+
+    >>> median_ratio({"seconds": 2.0, "p50": 0.02}, [{"seconds": 4.0, "p50": 0.04}])
+    8.0
+    """
+    medians = [{"seconds": one["seconds"], "rms": one["p50"]} for one in cycles]
+    return seconds_at(run["p50"], medians) / run["seconds"]
 
 
 def geometric_mean(values):

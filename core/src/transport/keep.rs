@@ -1,7 +1,5 @@
 //! What is left of a bake beside its lightmaps.
 
-use alloc::vec::Vec;
-
 use super::Row;
 
 /// What is left of a bake beside its lightmaps.
@@ -17,7 +15,7 @@ pub enum Keep {
 impl Keep {
     /// The row of a texel whose rays see these columns, where that is kept.
     #[inline]
-    pub(crate) fn row(self, columns: &mut Vec<u32>) -> Row {
+    pub(crate) fn row(self, columns: &mut [u32]) -> Row {
         match self {
             Self::Lightmaps => Row::default(),
             Self::Transport => Row::count(columns),
