@@ -59,7 +59,7 @@ fn half_circle(middle: f64, radius: f64, full: bool) -> Nurbs3 {
     let count = if full { 9 } else { 5 };
     let at = |k: usize| {
         let [x, z] = corner[k];
-        Homogeneous::new(DVec3::new(middle + radius * x, 0.0, radius * z), if k % 2 == 0 { 1.0 } else { w })
+        Homogeneous::new(DVec3::new(middle + radius * x, 0.0, radius * z), if k.is_multiple_of(2) { 1.0 } else { w })
     };
     let points: Vec<_> = (0..count).map(at).collect();
     let all: &[f64] =

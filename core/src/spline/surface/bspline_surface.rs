@@ -174,13 +174,11 @@ impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
         let across = basis_of_order::<_, B, N>(self.knots[1].around(j), v);
         let columns = self.columns();
         let mut partials = [[P::default(); N]; N];
-        let mut start = (j + 1 - B) * columns + i + 1 - A;
-        for k in 0..B {
-            let row = &self.points[start..start + A];
-            start += columns;
-            for a in 0..N {
-                let mut of_row = row[0] * along[a][0];
-                (1..A).for_each(|i| of_row += row[i] * along[a][i]);
+        let start = (j + 1 - B) * columns + i + 1 - A;
+        for (k, row) in self.points[start..].chunks(columns).take(B).enumerate() {
+            for (a, along) in along.iter().enumerate() {
+                let mut of_row = row[0] * along[0];
+                (1..A).for_each(|i| of_row += row[i] * along[i]);
                 (0..N - a).for_each(|b| partials[a][b] += of_row * across[b][k]);
             }
         }

@@ -49,7 +49,7 @@ fn check_corners<P: SurfacePoint>(along: &[OwnedCurve<P>], across: &[OwnedCurve<
     for index in 0..4 {
         let [i, j] = [index % 2, index / 2];
         let distance = (corner(along, j, i) - corner(across, i, j)).length();
-        if !(distance <= size * P::Scalar::from_f64(APART)) {
+        if distance.partial_cmp(&(size * P::Scalar::from_f64(APART))).is_none_or(core::cmp::Ordering::is_gt) {
             return Err(SplineError::Corner { index, distance: distance.to_f64() });
         }
     }

@@ -23,7 +23,7 @@ impl<V: Vector> SurfaceJet<V> {
         let two = V::Scalar::from_f64(2.0);
         let cross = self.du.cross(self.dv);
         let area_squared = cross.length_squared();
-        if !(area_squared > V::Scalar::ZERO) {
+        if area_squared.partial_cmp(&V::Scalar::ZERO).is_none_or(core::cmp::Ordering::is_le) {
             return Curvature::default();
         }
         let normal = cross / area_squared.sqrt();

@@ -38,7 +38,7 @@ fn parameters<P: SurfacePoint>(curves: &[OwnedCurve<P>]) -> Result<Vec<P::Scalar
     for (index, pair) in curves.windows(2).enumerate() {
         let pairs = pair[0].points.iter().zip(&pair[1].points);
         let distance = pairs.map(|(a, b)| (b.project() - a.project()).length()).sum::<P::Scalar>();
-        if !(distance > P::Scalar::ZERO) {
+        if distance.partial_cmp(&P::Scalar::ZERO).is_none_or(core::cmp::Ordering::is_le) {
             return Err(SplineError::Singular { index: index + 1 });
         }
         distances.push(distances[index] + distance);
@@ -70,7 +70,7 @@ fn collocation<R: Real>(knots: &KnotVector<R>, parameters: &[R]) -> Vec<Vec<R>> 
 fn solve<P: SurfacePoint>(mut matrix: Vec<Vec<P::Scalar>>, rows: &mut [Vec<P>]) -> Result<(), SplineError> {
     for k in 0..rows.len() {
         let pivot = matrix[k][k];
-        if !(pivot > P::Scalar::ZERO) {
+        if pivot.partial_cmp(&P::Scalar::ZERO).is_none_or(core::cmp::Ordering::is_le) {
             return Err(SplineError::Singular { index: k });
         }
         for i in k + 1..rows.len() {

@@ -120,7 +120,7 @@ impl<P: SurfacePoint> Search<'_, '_, P> {
             let is_minimum = |[a, b, c]: [Scalar<P>; 3]| a > Scalar::<P>::ZERO && a * c - b * b > Scalar::<P>::ZERO;
             let [a, b, c] = if is_minimum(whole) { whole } else { first };
             let determinant = a * c - b * b;
-            if !(determinant > Scalar::<P>::ZERO) {
+            if determinant.partial_cmp(&Scalar::<P>::ZERO).is_none_or(core::cmp::Ordering::is_le) {
                 return;
             }
             let step =
