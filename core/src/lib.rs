@@ -28,7 +28,7 @@
 //! | `progress`, `parallel` | a running bake, seen and stopped; work cut into chunks |
 //! | `material` | reflectance, exitance, alpha, textures |
 //! | [`geometry`] | triangles, rays, directions, Sobol points, the tree |
-//! | [`spline`] | Bezier, B-spline, NURBS and Hermite curves, conics; surfaces |
+//! | [`spline`] | Bezier, B-spline, NURBS and Hermite curves, conics; surfaces and their tessellation |
 //! | [`composite`] | triangles to pixels, with a depth buffer |
 //! | [`form_factor`] | the share of the light of one surface that reaches another |
 //! | `light` | the irradiance that a lamp gives at a point |
