@@ -68,6 +68,7 @@ impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
     }
 
     /// What was checked before.
+    #[cfg(feature = "alloc")]
     pub(in crate::spline) fn assume(knots: [KnotVector<'a, P::Scalar>; 2], points: &'a [P]) -> Self {
         Self { knots, points }
     }
