@@ -18,6 +18,19 @@ pub enum Side {
     Left,
 }
 
+impl Side {
+    /// The parameter that changes along it: 0 for `u`, 1 for `v`.
+    #[cfg(feature = "alloc")]
+    pub(in crate::spline) fn along(self) -> usize {
+        usize::from(!self.is_along_u())
+    }
+
+    /// Whether `u` changes along it.
+    pub(in crate::spline) fn is_along_u(self) -> bool {
+        matches!(self, Self::Bottom | Self::Top)
+    }
+}
+
 /// The control points of an edge that have an influence in an interval of its knots.
 struct EdgePiece<'a, P: SurfacePoint> {
     points: [P; MAX_DEGREE + 1],
@@ -44,21 +57,21 @@ impl<P: SurfacePoint> BSplineSurface<'_, P> {
 
     /// The knots along an edge.
     pub fn knots_of(&self, side: Side) -> KnotVector<'_, Scalar<P>> {
-        self.knots(if is_along_u(side) { super::Direction::U } else { super::Direction::V })
+        self.knots(if side.is_along_u() { super::Direction::U } else { super::Direction::V })
     }
 
     fn edge_piece(&self, side: Side, span: usize) -> EdgePiece<'_, P> {
         let knots = self.knots_of(side);
-        let across = self.knots(if is_along_u(side) { super::Direction::V } else { super::Direction::U });
+        let across = self.knots(if side.is_along_u() { super::Direction::V } else { super::Direction::U });
         let [low, high] = across.domain();
         let end = if matches!(side, Side::Bottom | Side::Left) { low } else { high };
         let across_span = across.span(end);
         let weights = basis_at::<_, 1>(&across, across_span, end)[0];
         let mut points = [P::default(); MAX_DEGREE + 1];
-        let spans = if is_along_u(side) { [span, across_span] } else { [across_span, span] };
+        let spans = if side.is_along_u() { [span, across_span] } else { [across_span, span] };
         for (j, row) in self.rows(spans).enumerate() {
             for (i, &point) in row.iter().enumerate() {
-                let [along, across] = if is_along_u(side) { [i, j] } else { [j, i] };
+                let [along, across] = if side.is_along_u() { [i, j] } else { [j, i] };
                 points[along] += point * weights[across];
             }
         }
@@ -80,10 +93,6 @@ impl<P: SurfacePoint> EdgePiece<'_, P> {
         let half = Scalar::<P>::from_f64(0.5);
         [(forwards[0] + backwards[0]) * half, (forwards[1] - backwards[1]) * half]
     }
-}
-
-fn is_along_u(side: Side) -> bool {
-    matches!(side, Side::Bottom | Side::Top)
 }
 
 /// Point and derivative of a piece of a curve.

@@ -80,6 +80,13 @@ impl<R: Real> Chart<R> {
     pub fn scaled(&self, uv: [R; 2]) -> [R; 2] {
         [0, 1].map(|k| self.axes[k].scaled(uv[k]))
     }
+
+    /// The parameters whose coordinates in the lightmap lie in the middle between two others.
+    ///
+    /// A triangle cut there is cut by a straight line in the lightmap, so that none of its parts is turned over.
+    pub fn middle(&self, a: [R; 2], b: [R; 2]) -> [R; 2] {
+        [0, 1].map(|k| if a[k] == b[k] { a[k] } else { self.axes[k].middle(a[k], b[k]) })
+    }
 }
 
 impl<R: Real> Axis<R> {
@@ -98,6 +105,16 @@ impl<R: Real> Axis<R> {
             coordinate.push(coordinate[i - 1] + (density[i - 1] + density[i]) * half * step(i - 1));
         }
         Self { at, density, coordinate, length }
+    }
+
+    fn middle(&self, a: R, b: R) -> R {
+        let half = (self.scaled(a) + self.scaled(b)) * R::from_f64(0.5);
+        let last = self.at.len() - 2;
+        let i = self.coordinate.partition_point(|&at| at <= half).saturating_sub(1).min(last);
+        let ([low, high], past) = ([self.density[i], self.density[i + 1]], half - self.coordinate[i]);
+        let slope = (high - low) / (self.at[i + 1] - self.at[i]);
+        let root = (low * low + (slope + slope) * past).max(R::ZERO).sqrt();
+        (self.at[i] + (past + past) / (low + root)).clamp(a.min(b), a.max(b))
     }
 
     /// The integral of the density, which is linear between nodes.

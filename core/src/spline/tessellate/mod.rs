@@ -1,10 +1,12 @@
 //! Surfaces as triangles: fine where they bend, without cracks, and lightmap charts by nature.
 
 mod blocks;
+mod cells;
 mod chart;
 mod error;
 mod flatness;
 mod refine;
+mod vertices;
 
 pub use chart::ChartScale;
 pub use error::*;
@@ -18,7 +20,8 @@ use super::{BSplineSurface, Scalar, SurfacePoint};
 use crate::geometry::Mesh;
 use crate::math::{Real, Vector, VectorSpace};
 use chart::Chart;
-use refine::{Refiner, Vertex};
+use refine::Refiner;
+use vertices::Vertex;
 
 /// How near triangles come to their surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +34,9 @@ impl<R: Real> Tolerance<R> {
     /// Triangles that lie within `chord` of the surface, in meters, and along whose edges the normal turns by no more than
     /// `angle`, in radians; 0.001 and 0.2 are usual.
     ///
-    /// A piece of a surface between knots is halved at most 10 times in each direction.
+    /// Each triangle is checked at seven points, so that the surface may be a little further away between them. Beside a
+    /// straight edge along which a surface twists, normals turn by more: see [`tessellate`]. A piece of a surface between
+    /// knots has at most 1024 columns and rows, and triangles are halved at most 16 times more.
     ///
     /// # Errors
     ///
@@ -70,9 +75,10 @@ pub struct Tessellation<V: VectorSpace> {
 
 /// Cuts a surface into triangles.
 ///
-/// Edges of triangles are halved until they are near enough to the surface, and triangles with them, so that no vertex
-/// lies inside an edge. An edge on an edge of the surface is halved for its own sake alone: neighbors that share the
-/// control points of an edge (see [`BSplineSurface::edge`]) are cut alike there, each on its own. Where an inner line of
+/// Each part of it gets as many columns and rows as it bends: the chord of Filip, Magedson and Markot 1986, with what
+/// bends along the normal alone. Edges of triangles that are still too far away are halved, and triangles with them, so
+/// that no vertex lies inside an edge. An edge of the surface is cut for its own sake alone: neighbors that share its
+/// control points (see [`BSplineSurface::edge`]) are cut alike there, each on its own, whatever the surface does beside it. Where an inner line of
 /// knots is a crease, the vertices on it are double, each with the normal of its side. Triangles without area at poles
 /// are left out.
 pub fn tessellate<P: SurfacePoint>(
@@ -91,8 +97,10 @@ pub fn tessellate<P: SurfacePoint>(
         size: chart.size(),
     };
     for block in blocks::blocks(surface) {
-        let refined = Refiner::new(&block.surface(), tolerance).run();
-        result.append(&refined.vertices, &refined.triangles, &chart);
+        let surface = block.surface();
+        let cells = cells::sew(&surface, tolerance);
+        let (vertices, triangles) = Refiner::new(cells, tolerance, &chart).run();
+        result.append(&vertices, &triangles, &chart);
     }
     result
 }
