@@ -33,7 +33,7 @@ pub fn averaged_knots<R: Real>(parameters: &[R], degree: usize, knots: &mut [R])
     Ok(())
 }
 
-/// How many numbers [`interpolate`] and [`fit`] need as scratch: a band around the diagonal of their matrix.
+/// How many numbers [`interpolate`] and [`fit`] need at most as scratch: a band around the diagonal of their matrix.
 pub const fn band(count: usize, degree: usize) -> usize {
     count * (2 * degree + 1)
 }
@@ -79,8 +79,9 @@ pub fn interpolate<V: VectorSpace>(
 /// Writes the control points of the B-spline that is nearest to `points` at `parameters`: the sum of the squares of all
 /// distances is the least.
 ///
-/// `scratch` has [`band`] numbers. The normal equations, whose matrix is a band too; they lose half of the digits.
-/// Returns the root of the mean of the squared distances. "The NURBS Book", section 9.4.1, but with free ends.
+/// `scratch` has [`band`] numbers. The equations are taken one by one into a triangle with `degree` diagonals by rotations
+/// (Givens 1958), which keep all digits that the points determine; the normal equations would lose half of them. Lawson
+/// and Hanson, "Solving Least Squares Problems", chapter 27. Returns the root of the mean of the squared distances.
 ///
 /// # Errors
 ///
@@ -96,21 +97,14 @@ pub fn fit<V: VectorSpace>(
     let degree = knots.degree();
     check_sizes(knots, [parameters.len(), points.len(), control_points.len()], scratch)?;
     check_finite(points)?;
-    let mut band = Band { rows: scratch, half: degree };
-    band.rows.fill(V::Scalar::ZERO);
+    let mut triangle = Triangle { rows: scratch, width: degree + 1 };
+    triangle.rows.fill(V::Scalar::ZERO);
     control_points.fill(V::default());
     for (&t, &point) in parameters.iter().zip(points) {
-        let (first, basis) = basis_at(knots, t);
-        for (i, &a) in basis.iter().enumerate().take(degree + 1) {
-            control_points[first + i] += point * a;
-            for (j, &b) in basis.iter().enumerate().take(degree + 1) {
-                if let Some(entry) = band.entry(first + i, first + j) {
-                    *entry += a * b;
-                }
-            }
-        }
+        let (first, mut basis) = basis_at(knots, t);
+        triangle.take(first, &mut basis[..=degree], point, control_points);
     }
-    band.solve(control_points)?;
+    triangle.solve(control_points)?;
     let squared = parameters.iter().zip(points).map(|(&t, &point)| {
         let (first, basis) = basis_at(knots, t);
         let near = control_points[first..=first + degree].iter().zip(basis);
@@ -180,6 +174,48 @@ impl<R: Real> Band<'_, R> {
         for k in (0..n).rev() {
             let known = (k + 1..=(k + half).min(n - 1)).fold(V::default(), |sum, j| sum + right[j] * self.value(k, j));
             right[k] = (right[k] - known) / self.value(k, k);
+        }
+        Ok(())
+    }
+}
+
+/// A matrix that is 0 below its diagonal and above the `width - 1` diagonals next to it.
+struct Triangle<'a, R> {
+    rows: &'a mut [R],
+    width: usize,
+}
+
+impl<R: Real> Triangle<'_, R> {
+    /// Takes in an equation whose factors begin at column `first`.
+    fn take<V: VectorSpace<Scalar = R>>(&mut self, first: usize, factors: &mut [R], mut right: V, rights: &mut [V]) {
+        for k in 0..factors.len() {
+            let factor = factors[k];
+            if factor == R::ZERO {
+                continue;
+            }
+            let row = &mut self.rows[(first + k) * self.width..][..self.width];
+            let length = (row[0] * row[0] + factor * factor).sqrt();
+            let (cos, sin) = (row[0] / length, factor / length);
+            for (above, below) in row.iter_mut().zip(&mut factors[k..]) {
+                (*above, *below) = (*above * cos + *below * sin, *below * cos - *above * sin);
+            }
+            let above = rights[first + k];
+            (rights[first + k], right) = (above * cos + right * sin, right * cos - above * sin);
+        }
+    }
+
+    /// The right sides become the solution.
+    fn solve<V: VectorSpace<Scalar = R>>(&self, rights: &mut [V]) -> Result<(), SplineError> {
+        let row = |i: usize| &self.rows[i * self.width..][..self.width];
+        let largest = (0..rights.len()).map(|i| row(i)[0].abs()).fold(R::ZERO, R::max);
+        let tiny = largest * R::EPSILON * R::from_usize(rights.len());
+        for i in (0..rights.len()).rev() {
+            if row(i)[0].abs() <= tiny {
+                return Err(SplineError::Singular { index: i });
+            }
+            let known = row(i)[1..].iter().zip(&rights[i + 1..]);
+            let rest = known.fold(rights[i], |rest, (&factor, &right)| rest - right * factor);
+            rights[i] = rest / row(i)[0];
         }
         Ok(())
     }
