@@ -1,8 +1,9 @@
 //! Bezier curves: de Casteljau's construction.
 
+use super::arc_length::integrate;
 use super::bernstein::{PASCAL, bernstein_sum};
 use super::control_point::{check_degree, check_points};
-use super::{ControlPoint, Curve, Homogeneous, Jet, SplineError};
+use super::{ControlPoint, Cubic, Curve, Homogeneous, Jet, SplineError};
 use crate::math::{Real, VectorSpace};
 
 /// The highest degree of a curve; [`de_casteljau`] and [`bernstein`](super::bernstein()) themselves know no limit.
@@ -150,6 +151,12 @@ impl<P: ControlPoint> Curve for Bezier<'_, P> {
     #[inline]
     fn point(&self, t: P::Scalar) -> P::Point {
         self.point(t)
+    }
+    fn piece_length(&self, interval: [P::Scalar; 2], tolerance: P::Scalar) -> P::Scalar {
+        match *self.0 {
+            [a, b, c, d] => Cubic::from_bezier([a, b, c, d]).piece_length(interval, tolerance),
+            _ => integrate(self, interval, tolerance),
+        }
     }
     #[inline]
     fn speed(&self, t: P::Scalar) -> P::Scalar {

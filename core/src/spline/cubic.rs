@@ -1,5 +1,6 @@
 //! Cubic pieces in all bases: powers, Bezier, Hermite, uniform B-spline, and exact ways between them.
 
+use super::arc_length::{cubic_length, integrate};
 use super::control_point::check_finite;
 use super::{ControlPoint, Curve, Jet, SplineError};
 use crate::math::{Real, VectorSpace};
@@ -92,9 +93,12 @@ impl<P: ControlPoint> Curve for Cubic<P> {
     fn point(&self, t: P::Scalar) -> P::Point {
         self.point(t)
     }
-    #[inline]
-    fn speed(&self, t: P::Scalar) -> P::Scalar {
-        self.at(t).first.length()
+    fn piece_length(&self, interval: [P::Scalar; 2], tolerance: P::Scalar) -> P::Scalar {
+        if P::DIMENSION > P::Point::DIMENSION {
+            return integrate(self, interval, tolerance);
+        }
+        let [_, b, c, d] = self.0;
+        cubic_length([b, c * number::<P>(2.0), d * number::<P>(3.0)], interval, tolerance)
     }
 }
 
@@ -155,6 +159,10 @@ impl<P: ControlPoint> Curve for Cubics<'_, P> {
     #[inline]
     fn point(&self, t: P::Scalar) -> P::Point {
         self.point(t)
+    }
+    fn piece_length(&self, [from, to]: [P::Scalar; 2], tolerance: P::Scalar) -> P::Scalar {
+        let (piece, start) = self.piece(from);
+        piece.piece_length([start, start + (to - from)], tolerance)
     }
     fn next_break(&self, t: P::Scalar) -> P::Scalar {
         P::Scalar::from_usize((t.to_usize() + usize::from(t >= P::Scalar::ZERO)).min(self.0.len()))

@@ -1,5 +1,6 @@
 //! What all curves have in common.
 
+use super::arc_length::integrate;
 use crate::math::{Real, VectorSpace};
 
 /// A point of a curve, with its first and second derivative by the parameter.
@@ -29,6 +30,13 @@ pub trait Curve {
     /// The speed at a parameter of the domain: the length of the first derivative.
     fn speed(&self, t: Parameter<Self>) -> Parameter<Self> {
         self.at(t).first.length()
+    }
+    /// The length between two parameters of the domain with no break between them, off by at most about `tolerance`.
+    fn piece_length(&self, interval: [Parameter<Self>; 2], tolerance: Parameter<Self>) -> Parameter<Self>
+    where
+        Self: Sized,
+    {
+        integrate(self, interval, tolerance)
     }
     /// The next parameter after `t` at which one polynomial ends; the end of the domain after the last one.
     fn next_break(&self, _t: Parameter<Self>) -> Parameter<Self> {
