@@ -3,7 +3,7 @@
 use super::bernstein::PASCAL;
 use super::bezier::MAX_ORDER;
 use super::split::halve;
-use super::{BSpline, Bezier, ControlPoint};
+use super::{BSpline, Bezier, ControlPoint, Curve, Parameter};
 use crate::math::{Real, VectorSpace};
 
 /// A point of a curve and its distance from another point.
@@ -21,13 +21,18 @@ pub struct Nearest<V: VectorSpace> {
 const DEEPEST: usize = 28;
 /// How many pieces are looked at: far more than a curve needs that does not run around the point.
 const MOST: usize = 1 << 13;
+/// Steps of Newton's method.
+const STEPS: usize = 8;
+/// As many coefficients as the squared distance has.
+const COEFFICIENTS: usize = 2 * MAX_ORDER - 1;
 
 impl<P: ControlPoint> Bezier<'_, P> {
     /// The point nearest to another one; of several, one of them.
     ///
     /// The nearest one of all, not only of its surroundings: branch and bound. In Bernstein form no value of the squared
-    /// distance is below its smallest coefficient, so that parts of the curve that cannot be nearer are left out. Known to
-    /// be the nearest one after at most 8192 parts. The
+    /// distance is below its smallest coefficient, so that parts of the curve that cannot be nearer are left out; where the
+    /// coefficients are convex, the part holds one minimum, which Newton's method finds. Known to be the nearest one after
+    /// at most 8192 parts. The
     /// distance is right to rounding, the parameter to the square root of it where the curve runs around the point.
     pub fn nearest(&self, to: P::Point) -> Nearest<P::Point> {
         let far = Nearest { distance: P::Scalar::INFINITY, ..Nearest::default() };
@@ -48,23 +53,33 @@ impl<P: ControlPoint> Bezier<'_, P> {
 }
 
 impl<P: ControlPoint> BSpline<'_, P> {
-    /// The point nearest to another one; of several, one of them. As that of all its Bezier pieces.
+    /// The point nearest to another one; of several, one of them.
+    ///
+    /// As that of all Bezier pieces but those whose control points lie further away, seen from the point, than what
+    /// Newton's method finds from the nearest middle of a piece.
     pub fn nearest(&self, to: P::Point) -> Nearest<P::Point> {
         let mut nearest = Nearest { distance: P::Scalar::INFINITY, ..Nearest::default() };
         let ends = |span: usize| [0, 1].map(|i| self.knots().knots()[span + i]);
+        let (mut interval, half) = (self.knots().domain(), P::Scalar::from_f64(0.5));
         // A near point that is known early spares most pieces.
         for [start, end] in self.knots().spans().map(ends) {
-            let parameter = (start + end) * P::Scalar::from_f64(0.5);
+            let parameter = (start + end) * half;
             let point = self.point(parameter);
-            let distance = (point - to).length();
+            let distance = (point - to).length_squared();
             if distance < nearest.distance {
-                nearest = Nearest { parameter, point, distance };
+                (nearest, interval) = (Nearest { parameter, point, distance }, [start, end]);
             }
+        }
+        nearest.distance = nearest.distance.sqrt();
+        let (parameter, _) = newton(self, to, nearest.parameter, interval);
+        let point = self.point(parameter);
+        if (point - to).length() < nearest.distance {
+            nearest = Nearest { parameter, point, distance: (point - to).length() };
         }
         let mut points = [P::default(); MAX_ORDER];
         let points = &mut points[..=self.degree()];
         for span in self.knots().spans() {
-            if self.bezier(span, points).is_err() {
+            if self.is_farther(span, to, nearest.distance) || self.bezier(span, points).is_err() {
                 continue;
             }
             let [start, end] = ends(span);
@@ -74,6 +89,14 @@ impl<P: ControlPoint> BSpline<'_, P> {
             }
         }
         nearest
+    }
+
+    /// Whether all control points of a piece lie beyond a plane that is not nearer than a distance.
+    fn is_farther(&self, span: usize, to: P::Point, distance: P::Scalar) -> bool {
+        let points = (span - self.degree()..=span).map(|i| self.control(i).project() - to);
+        let direction = points.clone().fold(P::Point::default(), |sum, offset| sum + offset);
+        let bound = distance * direction.length();
+        points.into_iter().all(|offset| offset.dot(direction) >= bound)
     }
 }
 
@@ -87,13 +110,27 @@ struct Search<'a, P: ControlPoint> {
 impl<P: ControlPoint> Search<'_, P> {
     /// Looks for a nearer point in the part of the curve with these control points.
     fn within(&mut self, points: &mut [P], [from, to]: [P::Scalar; 2], depth: usize) {
-        if depth == DEEPEST || self.pieces == MOST || !self.may_be_nearer(points) {
+        if depth == DEEPEST || self.pieces == MOST {
             return;
         }
         self.pieces += 1;
+        let mut coefficients = [P::Scalar::ZERO; COEFFICIENTS];
+        let coefficients = &mut coefficients[..2 * points.len() - 1];
+        self.excess(points, coefficients);
+        let Some(lowest) = lowest(coefficients) else { return };
+        let share = P::Scalar::from_usize(lowest) / P::Scalar::from_usize((coefficients.len() - 1).max(1));
+        let known = self.best.distance;
+        let (nearest, is_still) = newton(&self.curve, self.to, from + (to - from) * share, [from, to]);
+        self.improve(nearest);
+        if self.best.distance < known {
+            self.excess(points, coefficients);
+        }
+        // The one minimum of a convex excess over the distance to it, or to a nearer point, is not negative.
+        if (is_still && is_convex(coefficients)) || self::lowest(coefficients).is_none() {
+            return;
+        }
         let half = P::Scalar::from_f64(0.5);
         let middle = (from + to) * half;
-        self.improve(self.newton(middle, [from, to]));
         let mut before = [P::default(); MAX_ORDER];
         let before = &mut before[..points.len()];
         halve(points, half, before);
@@ -109,8 +146,8 @@ impl<P: ControlPoint> Search<'_, P> {
         }
     }
 
-    /// Whether `|weight (c - p)|^2 - (weight best)^2` has a negative coefficient: where it has none, no point is nearer.
-    fn may_be_nearer(&self, points: &[P]) -> bool {
+    /// The coefficients of `|weight (c - p)|^2 - (weight best)^2`, which is negative where a point is nearer.
+    fn excess(&self, points: &[P], coefficients: &mut [P::Scalar]) {
         let n = points.len() - 1;
         let mut offsets = [P::Point::default(); MAX_ORDER];
         for (offset, point) in offsets.iter_mut().zip(points) {
@@ -118,28 +155,55 @@ impl<P: ControlPoint> Search<'_, P> {
         }
         let best = self.best.distance * self.best.distance;
         let known = best * (P::Scalar::ONE - P::Scalar::EPSILON * P::Scalar::from_f64(32.0));
-        (0..=2 * n).any(|k| {
+        let mut binomial = 1.0;
+        for (k, coefficient) in coefficients.iter_mut().enumerate() {
             let pairs = k.saturating_sub(n)..=k.min(n);
             let sum = pairs.map(|i| {
                 let j = k - i;
                 let excess = offsets[i].dot(offsets[j]) - points[i].weight() * points[j].weight() * known;
                 excess * P::Scalar::from_f64(PASCAL[n][i] * PASCAL[n][j])
             });
-            sum.sum::<P::Scalar>() < P::Scalar::ZERO
-        })
-    }
-
-    /// A few steps towards `(c - p) c' = 0`, held in the interval.
-    fn newton(&self, mut t: P::Scalar, [from, to]: [P::Scalar; 2]) -> P::Scalar {
-        for _ in 0..4 {
-            let jet = self.curve.at(t);
-            let offset = jet.point - self.to;
-            let bend = jet.first.length_squared() + offset.dot(jet.second);
-            if bend <= P::Scalar::ZERO {
-                return t;
-            }
-            t = (t - offset.dot(jet.first) / bend).clamp(from, to);
+            *coefficient = sum.sum::<P::Scalar>() / P::Scalar::from_f64(binomial);
+            binomial = binomial * (2 * n - k) as f64 / (k + 1) as f64;
         }
-        t
     }
+}
+
+/// The lowest coefficient, if one is negative.
+fn lowest<R: Real>(coefficients: &[R]) -> Option<usize> {
+    let lower = |best: usize, i: usize| if coefficients[i] < coefficients[best] { i } else { best };
+    let lowest = (1..coefficients.len()).fold(0, lower);
+    (coefficients[lowest] < R::ZERO).then_some(lowest)
+}
+
+/// Whether the polynomial with these coefficients bends upwards everywhere.
+fn is_convex<R: Real>(coefficients: &[R]) -> bool {
+    coefficients.windows(3).all(|c| (c[2] - c[1]) >= (c[1] - c[0]))
+}
+
+/// Where steps towards `(c - p) c' = 0`, held in the interval, lead, and whether they came to rest.
+fn newton<C: Curve>(
+    curve: &C,
+    to: C::Point,
+    mut t: Parameter<C>,
+    [from, end]: [Parameter<C>; 2],
+) -> (Parameter<C>, bool) {
+    for _ in 0..STEPS {
+        let jet = curve.at(t);
+        let offset = jet.point - to;
+        let speed = jet.first.length_squared();
+        let bend = speed + offset.dot(jet.second);
+        // Where the distance does not bend upwards, the steps of Gauss lead downhill.
+        let bend = if bend > Parameter::<C>::ZERO { bend } else { speed };
+        if bend <= Parameter::<C>::ZERO {
+            break;
+        }
+        let next = (t - offset.dot(jet.first) / bend).clamp(from, end);
+        let is_still = (next - t).abs() <= Parameter::<C>::EPSILON * Parameter::<C>::from_f64(4.0) * (end - from);
+        t = next;
+        if is_still {
+            return (t, true);
+        }
+    }
+    (t, false)
 }
