@@ -15,6 +15,12 @@ impl<R: Real> KnotVector<'_, R> {
         cox_de_boor(self.around(span), self.degree(), t)
     }
 
+    /// The derivatives of the orders below `K` of the basis functions of a span at `t`.
+    #[inline]
+    pub(super) fn orders<const K: usize>(&self, span: usize, t: R) -> [[R; MAX_ORDER]; K] {
+        cox_de_boor_orders(self.around(span), self.degree(), t)
+    }
+
     /// The derivatives of order 0, 1, 2 ... of the basis functions of a span at `t`, as many as there are rows.
     ///
     /// The derivative of order `k` is found from the basis functions of degree `p - k`, whose sum it is: the formula
@@ -29,15 +35,10 @@ impl<R: Real> KnotVector<'_, R> {
 
 /// The values of the basis functions of degree `degree` between the two middle knots of a window of `2 degree` knots.
 ///
-/// `N` is larger than the degree.
+/// Exactly 1 and 0 where a control point is reached. `N` is larger than the degree.
 #[inline(always)]
 pub(super) fn cox_de_boor<R: Real, const N: usize>(window: &[R], degree: usize, t: R) -> [R; N] {
-    let mut values = [R::ZERO; N];
-    values[0] = R::ONE;
-    let window = &window[..2 * degree];
-    for j in 1..degree + 1 {
-        raise(window, degree, j, t, &mut values);
-    }
+    let [values] = cox_de_boor_orders::<R, N, 1>(window, degree, t);
     values
 }
 
@@ -54,40 +55,44 @@ pub(super) fn cox_de_boor_derivative<R: Real, const N: usize>(window: &[R], degr
     values
 }
 
-/// The values and the first and second derivatives.
+/// Their derivatives of the orders below `K`: the triangle of Cox and de Boor up to degree `p - k`, then `k` times the rule
+/// for the derivative. "The NURBS Book", equations 2.5 and 2.7.
 #[inline(always)]
-pub(super) fn cox_de_boor_jet<R: Real, const N: usize>(window: &[R], degree: usize, t: R) -> [[R; N]; 3] {
+pub(super) fn cox_de_boor_orders<R: Real, const N: usize, const K: usize>(
+    window: &[R],
+    degree: usize,
+    t: R,
+) -> [[R; N]; K] {
+    let mut orders = [[R::ZERO; N]; K];
     let mut values = [R::ZERO; N];
-    let (mut first, mut second) = (values, values);
     values[0] = R::ONE;
     let window = &window[..2 * degree];
-    for j in 1..degree + 1 {
-        if j + 1 == degree {
-            second = values;
-            differentiate(window, degree, j, &mut second);
+    for j in 0..degree + 1 {
+        if j > 0 {
+            raise(window, degree, j, t, &mut values);
         }
-        if j == degree {
-            first = values;
-            differentiate(window, degree, j, &mut first);
-            differentiate(window, degree, j, &mut second);
+        let order = degree - j;
+        if order < K {
+            orders[order] = values;
+            (j + 1..degree + 1).for_each(|j| differentiate(window, degree, j, &mut orders[order]));
         }
-        raise(window, degree, j, t, &mut values);
     }
-    [values, first, second]
+    orders
 }
 
 /// From the basis functions of degree `j - 1` to those of degree `j`.
 ///
 /// `N_i^j = (t - u_i) / (u_(i+j) - u_i) N_i^(j-1) + (u_(i+j+1) - t) / (u_(i+j+1) - u_(i+1)) N_(i+1)^(j-1)`; the
-/// reciprocals do not wait for the values.
+/// quotients do not wait for the values.
 #[inline(always)]
 fn raise<R: Real>(window: &[R], degree: usize, j: usize, t: R, values: &mut [R]) {
     let mut saved = R::ZERO;
     for r in 0..j {
         let (low, high) = (window[degree - j + r], window[degree + r]);
-        let share = values[r] * (R::ONE / (high - low));
-        values[r] = saved + (high - t) * share;
-        saved = (t - low) * share;
+        let share = (t - low) / (high - low);
+        let before = values[r];
+        values[r] = saved + (R::ONE - share) * before;
+        saved = share * before;
     }
     values[j] = saved;
 }
@@ -99,8 +104,7 @@ fn raise<R: Real>(window: &[R], degree: usize, j: usize, t: R, values: &mut [R])
 fn differentiate<R: Real>(window: &[R], degree: usize, j: usize, values: &mut [R]) {
     let mut saved = R::ZERO;
     for r in 0..j {
-        let reciprocal = R::ONE / (window[degree + r] - window[degree - j + r]);
-        let share = values[r] * (reciprocal * R::from_usize(j));
+        let share = values[r] * (R::from_usize(j) / (window[degree + r] - window[degree - j + r]));
         values[r] = saved - share;
         saved = share;
     }

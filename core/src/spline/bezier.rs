@@ -3,6 +3,7 @@
 use super::arc_length::integrate;
 use super::bernstein::{PASCAL, bernstein_sum};
 use super::control_point::{check_degree, check_points};
+use super::curve::evaluated_by_itself;
 use super::{ControlPoint, Cubic, Curve, Homogeneous, Jet, SplineError};
 use crate::math::{Real, VectorSpace};
 
@@ -144,14 +145,7 @@ impl<P: ControlPoint> Curve for Bezier<'_, P> {
     fn domain(&self) -> [P::Scalar; 2] {
         [P::Scalar::ZERO, P::Scalar::ONE]
     }
-    #[inline]
-    fn at(&self, t: P::Scalar) -> Jet<P::Point> {
-        self.at(t)
-    }
-    #[inline]
-    fn point(&self, t: P::Scalar) -> P::Point {
-        self.point(t)
-    }
+    evaluated_by_itself!();
     fn piece_length(&self, interval: [P::Scalar; 2], tolerance: P::Scalar) -> P::Scalar {
         match *self.0 {
             [a, b, c, d] => Cubic::from_bezier([a, b, c, d]).piece_length(interval, tolerance),

@@ -1,8 +1,9 @@
 //! B-spline curves: pieces of polynomials that join smoothly.
 
-use super::basis::{cox_de_boor, cox_de_boor_derivative, cox_de_boor_jet};
+use super::basis::{cox_de_boor, cox_de_boor_derivative, cox_de_boor_orders};
 use super::bezier::MAX_ORDER;
 use super::control_point::check_points;
+use super::curve::evaluated_by_itself;
 use super::{ControlPoint, Curve, Homogeneous, Jet, KnotVector, SplineError};
 use crate::math::{Real, VectorSpace};
 
@@ -164,7 +165,7 @@ impl<'a, P: ControlPoint> BSpline<'a, P> {
 
     #[inline(always)]
     fn jet_of<const N: usize>(&self, degree: usize, span: usize, t: P::Scalar) -> Jet<P> {
-        let rows = cox_de_boor_jet(self.knots.around(span), degree, t);
+        let rows = cox_de_boor_orders::<_, N, 3>(self.knots.around(span), degree, t);
         let [point, first, second] = rows.map(|row| self.weighted::<N>(span, degree, &row));
         Jet { point, first, second }
     }
@@ -189,14 +190,7 @@ impl<P: ControlPoint> Curve for BSpline<'_, P> {
     fn domain(&self) -> [P::Scalar; 2] {
         self.knots.domain()
     }
-    #[inline]
-    fn at(&self, t: P::Scalar) -> Jet<P::Point> {
-        self.at(t)
-    }
-    #[inline]
-    fn point(&self, t: P::Scalar) -> P::Point {
-        self.point(t)
-    }
+    evaluated_by_itself!();
     fn speed(&self, t: P::Scalar) -> P::Scalar {
         let t = self.wrapped(t);
         let span = self.knots.span(t);

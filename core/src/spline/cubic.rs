@@ -2,6 +2,7 @@
 
 use super::arc_length::{cubic_length, integrate};
 use super::control_point::check_finite;
+use super::curve::evaluated_by_itself;
 use super::{ControlPoint, Curve, Jet, SplineError};
 use crate::math::{Real, VectorSpace};
 
@@ -85,14 +86,7 @@ impl<P: ControlPoint> Curve for Cubic<P> {
     fn domain(&self) -> [P::Scalar; 2] {
         [P::Scalar::ZERO, P::Scalar::ONE]
     }
-    #[inline]
-    fn at(&self, t: P::Scalar) -> Jet<P::Point> {
-        self.at(t)
-    }
-    #[inline]
-    fn point(&self, t: P::Scalar) -> P::Point {
-        self.point(t)
-    }
+    evaluated_by_itself!();
     fn piece_length(&self, interval: [P::Scalar; 2], tolerance: P::Scalar) -> P::Scalar {
         if P::DIMENSION > P::Point::DIMENSION {
             return integrate(self, interval, tolerance);
@@ -152,14 +146,7 @@ impl<P: ControlPoint> Curve for Cubics<'_, P> {
     fn domain(&self) -> [P::Scalar; 2] {
         [P::Scalar::ZERO, P::Scalar::from_usize(self.0.len())]
     }
-    #[inline]
-    fn at(&self, t: P::Scalar) -> Jet<P::Point> {
-        self.at(t)
-    }
-    #[inline]
-    fn point(&self, t: P::Scalar) -> P::Point {
-        self.point(t)
-    }
+    evaluated_by_itself!();
     fn piece_length(&self, [from, to]: [P::Scalar; 2], tolerance: P::Scalar) -> P::Scalar {
         let (piece, start) = self.piece(from);
         piece.piece_length([start, start + (to - from)], tolerance)

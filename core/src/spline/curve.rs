@@ -61,3 +61,18 @@ impl<V: VectorSpace> Jet<V> {
         }
     }
 }
+
+/// Evaluation by the methods of the curve itself, which can be called without the trait.
+macro_rules! evaluated_by_itself {
+    () => {
+        #[inline]
+        fn at(&self, t: $crate::spline::Parameter<Self>) -> $crate::spline::Jet<Self::Point> {
+            self.at(t)
+        }
+        #[inline]
+        fn point(&self, t: $crate::spline::Parameter<Self>) -> Self::Point {
+            self.point(t)
+        }
+    };
+}
+pub(super) use evaluated_by_itself;

@@ -4,6 +4,7 @@
 //! tangents. All tangents are derivatives by the parameter, whose value at each point is its time.
 
 use super::control_point::check_finite;
+use super::curve::evaluated_by_itself;
 use super::knots::is_finite;
 use super::split::check_buffer;
 use super::{ControlPoint, Cubic, Curve, Jet, SplineError};
@@ -98,12 +99,7 @@ impl<V: ControlPoint<Point = V>> Curve for Hermite<'_, V> {
     fn domain(&self) -> [V::Scalar; 2] {
         [self.times[0], self.times[self.pieces()]]
     }
-    fn at(&self, t: V::Scalar) -> Jet<V> {
-        self.at(t)
-    }
-    fn point(&self, t: V::Scalar) -> V {
-        self.point(t)
-    }
+    evaluated_by_itself!();
     fn next_break(&self, t: V::Scalar) -> V::Scalar {
         self.times[if t < self.times[0] { 0 } else { self.piece_at(t) + 1 }]
     }

@@ -1,6 +1,7 @@
 //! The same curve with more knots, and nearly the same one with less: Boehm, Oslo, Bezier segments.
 
 use super::bezier::MAX_ORDER;
+use super::blossom::blossom;
 use super::control_point::check_degree;
 use super::split::check_buffer;
 use super::{BSpline, ControlPoint, KnotVector, SplineError};
@@ -178,16 +179,9 @@ impl<P: ControlPoint> BSpline<'_, P> {
     pub fn blossom(&self, span: usize, arguments: &[P::Scalar]) -> P {
         let degree = self.degree();
         let span = span.clamp(degree, self.knots().count() - 1);
-        let window = self.knots().around(span);
         let mut points = [P::default(); MAX_ORDER];
         (0..=degree).for_each(|i| points[i] = self.control(span - degree + i));
-        for (round, &t) in arguments.iter().take(degree).enumerate() {
-            for i in 0..degree - round {
-                let (low, high) = (window[round + i], window[degree + i]);
-                points[i] = points[i] * ((high - t) / (high - low)) + points[i + 1] * ((t - low) / (high - low));
-            }
-        }
-        points[0]
+        blossom(&points[..=degree], self.knots().around(span), arguments.iter().copied())
     }
 
     /// The longest span of this curve of those on which basis function `i` of finer knots of a degree acts.

@@ -147,6 +147,18 @@ impl<'a, R: Real> KnotVector<'a, R> {
     }
 }
 
+impl<R: Real> KnotVector<'static, R> {
+    /// The knots of a Bezier curve: as many zeros and ones as it has points.
+    ///
+    /// # Errors
+    ///
+    /// Where the degree is above [`MAX_DEGREE`].
+    pub fn bezier(degree: usize) -> Result<Self, SplineError> {
+        let spare = MAX_DEGREE.checked_sub(degree).ok_or(SplineError::Degree { degree })?;
+        Ok(Self::trusted(&R::STEP[spare..spare + 2 * (degree + 1)], degree))
+    }
+}
+
 /// Writes knots over `[0, 1]` at equal distances, the first and the last `degree + 1` times.
 ///
 /// A curve with them begins at its first and ends at its last control point. `knots.len()` is the number of control

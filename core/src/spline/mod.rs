@@ -9,6 +9,7 @@ mod arc_length;
 mod basis;
 mod bernstein;
 mod bezier;
+mod blossom;
 mod bspline;
 mod conic;
 mod control_point;

@@ -13,9 +13,9 @@ use crate::math::{Real, VectorSpace};
 /// A [`BSpline`] with knots and control points of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OwnedBSpline<P: VectorSpace> {
-    knots: Vec<P::Scalar>,
-    degree: usize,
-    points: Vec<P>,
+    pub(super) knots: Vec<P::Scalar>,
+    pub(super) degree: usize,
+    pub(super) points: Vec<P>,
 }
 
 /// A NURBS curve with knots and control points of its own.

@@ -1,9 +1,10 @@
 //! B-spline surfaces and NURBS: tensor products of B-spline curves.
 
-use super::basis::{Basis, basis_at, basis_of_order};
 use super::{Curvature, SurfaceJet, SurfacePoint};
 use crate::math::{Real, VectorSpace};
+use crate::spline::basis::cox_de_boor_orders;
 use crate::spline::control_point::{check_degree, check_points};
+use crate::spline::split::hull;
 use crate::spline::{ControlPoint, Homogeneous, KnotVector, SplineError};
 
 /// A tensor product surface on borrowed knots and control points, of degree 0 to [`MAX_DEGREE`](crate::spline::MAX_DEGREE) in both directions.
@@ -93,6 +94,11 @@ impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
         self.knots.map(|knots| knots.domain())
     }
 
+    /// The lowest and the highest corner of a box around the control points, and so around the surface.
+    pub fn bounds(&self) -> [P::Point; 2] {
+        hull(self.points)
+    }
+
     /// The point at `u` and `v`.
     #[inline]
     pub fn point(&self, u: P::Scalar, v: P::Scalar) -> P::Point {
@@ -171,8 +177,8 @@ impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
         u: P::Scalar,
         v: P::Scalar,
     ) -> [[P; N]; N] {
-        let along = basis_of_order::<_, A, N>(self.knots[0].around(i), u);
-        let across = basis_of_order::<_, B, N>(self.knots[1].around(j), v);
+        let along = cox_de_boor_orders::<_, A, N>(self.knots[0].around(i), A - 1, u);
+        let across = cox_de_boor_orders::<_, B, N>(self.knots[1].around(j), B - 1, v);
         let columns = self.columns();
         let mut partials = [[P::default(); N]; N];
         let start = (j + 1 - B) * columns + i + 1 - A;
@@ -188,8 +194,8 @@ impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
 
     /// The same for all degrees.
     fn partials_of_any_order<const N: usize>(&self, spans: [usize; 2], u: P::Scalar, v: P::Scalar) -> [[P; N]; N] {
-        let along: Basis<_, N> = basis_at(&self.knots[0], spans[0], u);
-        let across: Basis<_, N> = basis_at(&self.knots[1], spans[1], v);
+        let along = self.knots[0].orders::<N>(spans[0], u);
+        let across = self.knots[1].orders::<N>(spans[1], v);
         let mut partials = [[P::default(); N]; N];
         for (j, row) in self.rows(spans).enumerate() {
             let mut of_row = [P::default(); N];

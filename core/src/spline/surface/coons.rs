@@ -2,11 +2,11 @@
 
 use alloc::vec;
 
+use super::compatible::compatible;
 use super::extrusion::between;
-use super::owned_curve::compatible;
-use super::{Direction, OwnedCurve, OwnedSurface, SurfacePoint};
+use super::{Direction, OwnedSurface, SurfacePoint};
 use crate::math::Real;
-use crate::spline::{BSpline, SplineError};
+use crate::spline::{BSpline, OwnedBSpline, SplineError};
 
 /// How far corners may lie apart, in the size of the patch.
 const APART: f64 = 1e-5;
@@ -21,11 +21,12 @@ const APART: f64 = 1e-5;
 ///
 /// Where curves do not meet at a corner, with the same weight, or a weight inside would not be positive.
 pub fn coons<P: SurfacePoint>([bottom, right, top, left]: [&BSpline<P>; 4]) -> Result<OwnedSurface<P>, SplineError> {
-    let [along, across] = [[bottom, top], [left, right]].map(|pair| compatible(pair.map(OwnedCurve::new).to_vec()));
+    let [along, across] =
+        [[bottom, top], [left, right]].map(|pair| compatible(pair.map(OwnedBSpline::clamped).to_vec()));
     check_corners(&along, &across)?;
     let ends = |k: usize| {
         let points = &along[k].points;
-        OwnedCurve { points: vec![points[0], points[points.len() - 1]], ..line() }
+        OwnedBSpline { points: vec![points[0], points[points.len() - 1]], ..line() }
     };
     let bilinear = between(vec![ends(0), ends(1)])?;
     let from_bottom = between(along)?;
@@ -34,13 +35,13 @@ pub fn coons<P: SurfacePoint>([bottom, right, top, left]: [&BSpline<P>; 4]) -> R
 }
 
 /// The knots of a straight line, without points.
-fn line<P: SurfacePoint>() -> OwnedCurve<P> {
+fn line<P: SurfacePoint>() -> OwnedBSpline<P> {
     let (zero, one) = (P::Scalar::ZERO, P::Scalar::ONE);
-    OwnedCurve { knots: vec![zero, zero, one, one], degree: 1, points: vec![] }
+    OwnedBSpline { knots: vec![zero, zero, one, one], degree: 1, points: vec![] }
 }
 
-fn check_corners<P: SurfacePoint>(along: &[OwnedCurve<P>], across: &[OwnedCurve<P>]) -> Result<(), SplineError> {
-    let corner = |curves: &[OwnedCurve<P>], k: usize, end: usize| {
+fn check_corners<P: SurfacePoint>(along: &[OwnedBSpline<P>], across: &[OwnedBSpline<P>]) -> Result<(), SplineError> {
+    let corner = |curves: &[OwnedBSpline<P>], k: usize, end: usize| {
         let points = &curves[k].points;
         points[end * (points.len() - 1)]
     };

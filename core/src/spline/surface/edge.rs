@@ -1,8 +1,9 @@
 //! The edges of a surface, evaluated so that two surfaces that share one get the same bits.
 
-use super::basis::{basis_at, basis_on};
 use super::{BSplineSurface, Scalar, SurfacePoint};
 use crate::math::Real;
+use crate::spline::basis::cox_de_boor_orders;
+use crate::spline::bezier::MAX_ORDER;
 use crate::spline::{KnotVector, MAX_DEGREE};
 
 /// One of the four edges of a surface.
@@ -33,7 +34,7 @@ impl Side {
 
 /// The control points of an edge that have an influence in an interval of its knots.
 struct EdgePiece<'a, P: SurfacePoint> {
-    points: [P; MAX_DEGREE + 1],
+    points: [P; MAX_ORDER],
     knots: KnotVector<'a, Scalar<P>>,
     span: usize,
 }
@@ -66,8 +67,8 @@ impl<P: SurfacePoint> BSplineSurface<'_, P> {
         let [low, high] = across.domain();
         let end = if matches!(side, Side::Bottom | Side::Left) { low } else { high };
         let across_span = across.span(end);
-        let weights = basis_at::<_, 1>(&across, across_span, end)[0];
-        let mut points = [P::default(); MAX_DEGREE + 1];
+        let weights = across.basis(across_span, end);
+        let mut points = [P::default(); MAX_ORDER];
         let spans = if side.is_along_u() { [span, across_span] } else { [across_span, span] };
         for (j, row) in self.rows(spans).enumerate() {
             for (i, &point) in row.iter().enumerate() {
@@ -102,7 +103,7 @@ fn sums<'p, P: SurfacePoint>(
     p: usize,
     t: Scalar<P>,
 ) -> [P::Point; 2] {
-    let basis = basis_on::<_, 2>(local, p, t);
+    let basis = cox_de_boor_orders::<_, MAX_ORDER, 2>(local, p, t);
     let mut partials = [[P::default(); 2]; 2];
     for (i, &point) in points.enumerate() {
         partials[0][0] += point * basis[0][i];

@@ -3,12 +3,10 @@
 //! `u` runs along the rows of control points and `v` from row to row. The front of a surface is the side from which `u`
 //! to `v` is a turn to the left.
 
-mod basis;
-mod bezier_knots;
 mod bezier_surface;
-mod blossom;
-mod bounds;
 mod bspline_surface;
+#[cfg(feature = "alloc")]
+mod compatible;
 #[cfg(feature = "alloc")]
 mod coons;
 mod curvature;
@@ -19,8 +17,6 @@ mod jet;
 #[cfg(feature = "alloc")]
 mod loft;
 mod nearest;
-#[cfg(feature = "alloc")]
-mod owned_curve;
 #[cfg(feature = "alloc")]
 mod owned_surface;
 #[cfg(feature = "alloc")]
@@ -40,8 +36,6 @@ pub use jet::*;
 #[cfg(feature = "alloc")]
 pub use loft::*;
 pub use nearest::*;
-#[cfg(feature = "alloc")]
-pub use owned_curve::OwnedCurve;
 #[cfg(feature = "alloc")]
 pub use owned_surface::*;
 pub use ray::SurfaceHit;

@@ -1,9 +1,9 @@
 //! The point of a surface that is nearest to a point in space.
 
-use super::blossom::cut_out;
 use super::ray::{MOST_POINTS, STACK};
 use super::{BSplineSurface, Direction, Scalar, SurfacePoint};
 use crate::math::{Real, Vector, VectorSpace as _};
+use crate::spline::blossom::cut_out;
 use crate::spline::split::hull;
 
 /// A point of a surface and how far it is away.

@@ -2,10 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::owned_curve::OwnedCurve;
 use super::{BSplineSurface, Direction, SurfacePoint};
 use crate::math::{Real, VectorSpace};
-use crate::spline::{KnotVector, MAX_DEGREE, SplineError};
+use crate::spline::{KnotVector, MAX_DEGREE, OwnedBSpline, SplineError};
 
 /// A tensor product surface that owns its knots and control points.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +74,7 @@ impl<P: SurfacePoint> OwnedSurface<P> {
     pub fn elevated(&self, direction: Direction) -> Result<Self, SplineError> {
         match self.degrees[direction as usize] {
             MAX_DEGREE => Err(SplineError::Degree { degree: MAX_DEGREE + 1 }),
-            _ => Ok(self.changed(direction, OwnedCurve::elevated)),
+            _ => Ok(self.changed(direction, OwnedBSpline::raised)),
         }
     }
 
@@ -93,22 +92,22 @@ impl<P: SurfacePoint> OwnedSurface<P> {
     }
 
     /// The curve on the surface along a direction, where the other parameter is `t`, held within the domain.
-    pub fn isocurve(&self, along: Direction, t: P::Scalar) -> OwnedCurve<P> {
+    pub fn isocurve(&self, along: Direction, t: P::Scalar) -> OwnedBSpline<P> {
         let across = if along == Direction::U { Direction::V } else { Direction::U };
         let knots = self.surface().knots(across);
         let [low, high] = knots.domain();
         let t = t.clamp(low, high);
         let span = knots.span(t);
-        let weights = super::basis::basis_at::<_, 1>(&knots, span, t)[0];
+        let weights = knots.basis(span, t);
         let p = knots.degree();
-        let point = |line: OwnedCurve<P>| {
+        let point = |line: OwnedBSpline<P>| {
             let mut sum = P::default();
             line.points[span - p..=span].iter().zip(&weights).for_each(|(&point, &weight)| sum += point * weight);
             sum
         };
         let along = along as usize;
         let points = self.lines(across).map(point).collect();
-        OwnedCurve { knots: self.knots[along].clone(), degree: self.degrees[along], points }
+        OwnedBSpline { knots: self.knots[along].clone(), degree: self.degrees[along], points }
     }
 
     /// The control points, in rows along `u`.
@@ -128,13 +127,13 @@ impl<P: SurfacePoint> OwnedSurface<P> {
     pub(super) fn alike(surfaces: [Self; 3], direction: Direction) -> [Self; 3] {
         let index = direction as usize;
         let probes = surfaces.iter().filter_map(|surface| surface.lines(direction).next()).collect();
-        let (knots, degree) = match super::owned_curve::compatible(probes).into_iter().next() {
+        let (knots, degree) = match super::compatible::compatible(probes).into_iter().next() {
             Some(probe) => (probe.knots, probe.degree),
             None => return surfaces,
         };
         surfaces.map(|mut surface| {
             while surface.degrees[index] < degree {
-                surface = surface.changed(direction, OwnedCurve::elevated);
+                surface = surface.changed(direction, OwnedBSpline::raised);
             }
             surface.changed(direction, |line| line.with_knots(knots.clone()))
         })
@@ -142,7 +141,7 @@ impl<P: SurfacePoint> OwnedSurface<P> {
 
     /// From lines of control points along `u`, all with the same knots, one for each control point along `v`.
     pub(super) fn from_rows(
-        rows: Vec<OwnedCurve<P>>,
+        rows: Vec<OwnedBSpline<P>>,
         v_knots: Vec<P::Scalar>,
         v_degree: usize,
     ) -> Result<Self, SplineError> {
@@ -152,7 +151,7 @@ impl<P: SurfacePoint> OwnedSurface<P> {
     }
 
     /// The lines of control points along a direction, as curves.
-    fn lines(&self, direction: Direction) -> impl Iterator<Item = OwnedCurve<P>> + '_ {
+    fn lines(&self, direction: Direction) -> impl Iterator<Item = OwnedBSpline<P>> + '_ {
         let columns = self.surface().columns();
         let rows = self.points.len() / columns;
         let (count, length, step, stride) = match direction {
@@ -160,7 +159,7 @@ impl<P: SurfacePoint> OwnedSurface<P> {
             Direction::V => (columns, rows, 1, columns),
         };
         let (knots, degree) = (&self.knots[direction as usize], self.degrees[direction as usize]);
-        (0..count).map(move |line| OwnedCurve {
+        (0..count).map(move |line| OwnedBSpline {
             knots: knots.clone(),
             degree,
             points: (0..length).map(|k| self.points[line * step + k * stride]).collect(),
@@ -168,8 +167,8 @@ impl<P: SurfacePoint> OwnedSurface<P> {
     }
 
     /// The same change to all lines along a direction.
-    fn changed(&self, direction: Direction, change: impl Fn(&OwnedCurve<P>) -> OwnedCurve<P>) -> Self {
-        let lines: Vec<OwnedCurve<P>> = self.lines(direction).map(|line| change(&line)).collect();
+    fn changed(&self, direction: Direction, change: impl Fn(&OwnedBSpline<P>) -> OwnedBSpline<P>) -> Self {
+        let lines: Vec<OwnedBSpline<P>> = self.lines(direction).map(|line| change(&line)).collect();
         let (knots, degree, length) = (lines[0].knots.clone(), lines[0].degree, lines[0].points.len());
         let mut changed = self.clone();
         let index = direction as usize;

@@ -2,11 +2,11 @@
 
 use core::ops::{Add, Mul};
 
-use super::basis::basis_on;
-use super::blossom::cut_out;
 use super::{BSplineSurface, Direction, SurfacePoint};
 use crate::math::{Real, Vector, VectorSpace as _};
-use crate::spline::MAX_DEGREE;
+use crate::spline::basis::cox_de_boor_orders;
+use crate::spline::bezier::MAX_ORDER;
+use crate::spline::blossom::cut_out;
 
 /// Where a ray meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct SurfaceHit<R> {
 }
 
 /// The most control points of a piece.
-pub(super) const MOST_POINTS: usize = (MAX_DEGREE + 1) * (MAX_DEGREE + 1);
+pub(super) const MOST_POINTS: usize = MAX_ORDER * MAX_ORDER;
 /// Parts that wait: each halving leaves one, and no side is halved more often than a number has bits.
 pub(super) const STACK: usize = 128;
 /// Parts of a piece that are looked at, for rays that lie in the surface.
@@ -234,7 +234,8 @@ impl<'a, R: Real> Seen<'a, R> {
     /// Value and derivatives.
     fn evaluate(&self, [u, v]: [R; 2]) -> [[R; 2]; 3] {
         let [p, q] = self.degrees;
-        let [along, across] = [basis_on::<R, 2>(self.local[0], p, u), basis_on::<R, 2>(self.local[1], q, v)];
+        let along = cox_de_boor_orders::<R, MAX_ORDER, 2>(self.local[0], p, u);
+        let across = cox_de_boor_orders::<R, MAX_ORDER, 2>(self.local[1], q, v);
         let mut sums = [Across::default(); 3];
         for (j, row) in self.net[..(p + 1) * (q + 1)].chunks_exact(p + 1).enumerate() {
             let mut of_row = [Across::default(); 2];

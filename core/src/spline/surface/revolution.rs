@@ -2,9 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::{OwnedCurve, OwnedSurface, SurfacePoint};
+use super::{OwnedSurface, SurfacePoint};
 use crate::math::{Real, Vector, VectorSpace};
-use crate::spline::{BSpline, Homogeneous, SplineError};
+use crate::spline::{BSpline, Homogeneous, OwnedBSpline, SplineError};
 
 /// A line in space with a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub fn revolution<P: SurfacePoint>(
     if !(angle.abs() > P::Scalar::ZERO && angle.abs() <= full) {
         return Err(SplineError::Turn { angle: angle.to_f64() });
     }
-    let profile = OwnedCurve::new(curve);
+    let profile = OwnedBSpline::clamped(curve);
     let arcs = Arcs::new(angle);
     let points = profile.points.iter().flat_map(|point| arcs.around(*point, axis.origin, direction)).collect();
     OwnedSurface::new([arcs.knots(), profile.knots], [2, profile.degree], points)

@@ -2,8 +2,8 @@
 
 use core::ops::{Add, Mul};
 
+use super::bezier::MAX_ORDER;
 use crate::math::Real;
-use crate::spline::MAX_DEGREE;
 
 /// The value of the multi-affine, symmetric function that is the polynomial of a piece where all arguments are equal.
 ///
@@ -15,7 +15,7 @@ where
     P: Copy + Default + Add<Output = P> + Mul<R, Output = P>,
 {
     let p = points.len() - 1;
-    let mut left = [P::default(); MAX_DEGREE + 1];
+    let mut left = [P::default(); MAX_ORDER];
     left[..=p].copy_from_slice(points);
     for (r, t) in arguments.take(p).enumerate() {
         for i in 0..p - r {
@@ -37,7 +37,7 @@ where
     let [columns, rows] = local.map(|local| local.len() / 2 + 1);
     let arguments =
         |[from, to]: [R; 2], k: usize, count: usize| (1..count).map(move |i| if i <= k { to } else { from });
-    let mut line = [P::default(); MAX_DEGREE + 1];
+    let mut line = [P::default(); MAX_ORDER];
     for row in net.chunks_exact_mut(columns) {
         line[..columns].copy_from_slice(row);
         for (k, point) in row.iter_mut().enumerate() {

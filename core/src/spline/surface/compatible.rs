@@ -1,23 +1,14 @@
-//! Curves that own their knots and points: what surfaces are built from.
+//! Curves with the same degree and the same knots: what surfaces are built from.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::math::{Real, VectorSpace};
-use crate::spline::{BSpline, ControlPoint, KnotVector};
+use crate::math::Real;
+use crate::spline::{BSpline, ControlPoint, KnotVector, OwnedBSpline};
 
-/// A B-spline curve that owns its knots and control points, from the first to the last one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OwnedCurve<P: VectorSpace> {
-    /// In non-decreasing order, the first and the last `degree + 1` times.
-    pub(super) knots: Vec<P::Scalar>,
-    pub(super) degree: usize,
-    pub(super) points: Vec<P>,
-}
-
-impl<P: ControlPoint> OwnedCurve<P> {
-    /// A copy of a curve that begins and ends at control points.
-    pub fn new(curve: &BSpline<P>) -> Self {
+impl<P: ControlPoint> OwnedBSpline<P> {
+    /// A copy of a curve that begins and ends at its first and its last control point.
+    pub fn clamped(curve: &BSpline<P>) -> Self {
         let (knots, points) = (curve.knots(), curve.points());
         let all = (0..knots.count()).map(|i| points[i % points.len()]).collect();
         let own = Self { knots: knots.knots().to_vec(), degree: knots.degree(), points: all };
@@ -25,24 +16,9 @@ impl<P: ControlPoint> OwnedCurve<P> {
         if clamped == own.knots { own } else { own.with_knots(clamped) }
     }
 
-    /// To evaluate it.
-    pub fn curve(&self) -> BSpline<'_, P> {
-        BSpline::trusted(self.knot_vector(), &self.points)
-    }
-
-    /// The control points.
-    pub fn points(&self) -> &[P] {
-        &self.points
-    }
-
-    /// The knots with the degree.
-    pub fn knot_vector(&self) -> KnotVector<'_, P::Scalar> {
-        KnotVector::trusted(&self.knots, self.degree)
-    }
-
     /// The same curve over `[0, 1]`.
     pub(super) fn over_unit(mut self) -> Self {
-        let [start, end] = self.knot_vector().domain();
+        let [start, end] = self.curve().knots().domain();
         self.knots.iter_mut().for_each(|knot| *knot = (*knot - start) / (end - start));
         self
     }
@@ -77,18 +53,12 @@ impl<P: ControlPoint> OwnedCurve<P> {
     }
 
     /// The same curve with a degree higher by one; the highest degree stays.
-    pub(super) fn elevated(&self) -> Self {
-        let degree = self.degree + 1;
-        let mut knots = vec![P::Scalar::ZERO; self.curve().elevated_knots()];
-        let mut points = vec![P::default(); knots.len() - degree - 1];
-        match self.curve().elevate(&mut knots, &mut points) {
-            Ok(()) => Self { knots, degree, points },
-            Err(_) => self.clone(),
-        }
+    pub(super) fn raised(&self) -> Self {
+        self.elevated().unwrap_or_else(|_| self.clone())
     }
 
     fn clamped_knots(&self) -> Vec<P::Scalar> {
-        let [start, end] = self.knot_vector().domain();
+        let [start, end] = self.curve().knots().domain();
         let mut knots = vec![start; self.degree + 1];
         knots.extend(self.knots.iter().filter(|&&knot| start < knot && knot < end));
         knots.extend(vec![end; self.degree + 1]);
@@ -97,16 +67,16 @@ impl<P: ControlPoint> OwnedCurve<P> {
 }
 
 /// Curves over `[0, 1]` with the same degree and the same knots.
-pub(super) fn compatible<P: ControlPoint>(curves: Vec<OwnedCurve<P>>) -> Vec<OwnedCurve<P>> {
+pub(super) fn compatible<P: ControlPoint>(curves: Vec<OwnedBSpline<P>>) -> Vec<OwnedBSpline<P>> {
     let degree = curves.iter().map(|curve| curve.degree).max().unwrap_or(0);
-    let raised = |curve: OwnedCurve<P>| {
+    let raised = |curve: OwnedBSpline<P>| {
         let mut curve = curve.over_unit();
         while curve.degree < degree {
-            curve = curve.elevated();
+            curve = curve.raised();
         }
         curve
     };
-    let curves: Vec<OwnedCurve<P>> = curves.into_iter().map(raised).collect();
+    let curves: Vec<OwnedBSpline<P>> = curves.into_iter().map(raised).collect();
     let all = curves.iter().fold(Vec::new(), |all, curve| united(&all, &curve.knots));
     curves.iter().map(|curve| if curve.knots == all { curve.clone() } else { curve.with_knots(all.clone()) }).collect()
 }
