@@ -117,6 +117,25 @@ fn a_bezier_surface_is_a_spline_without_inner_knots() {
     }
 }
 
+/// A grid has the points of its pairs of parameters, whatever their order.
+#[test]
+fn grids_are_the_same_points() {
+    let mut us: Vec<f64> = (0..37).map(|i| f64::from(i) / 36.0).collect();
+    us.extend([0.7, 0.1, -0.2, 1.3]);
+    let vs = [0.0, 0.3, 1.0, 1.9, 2.0, 0.4];
+    let mut points = vec![DVec3::ZERO; us.len() * vs.len()];
+    for surface in [rational(), sphere(), rational().elevated(Direction::V).unwrap()] {
+        let surface = surface.surface();
+        surface.sample(&us, &vs, &mut points).unwrap();
+        for (k, point) in points.iter().enumerate() {
+            let [u, v] = [us[k % us.len()], vs[k / us.len()]];
+            assert!((surface.point(u, v) - *point).length() < 1e-13 * (1.0 + point.length()));
+        }
+    }
+    assert!(wavy().surface().sample(&us, &vs, &mut points[1..]).is_err());
+    assert!(wavy().surface().sample(&[], &vs, &mut []).is_ok());
+}
+
 /// Weights sum to one, move with their points, and points lie in the box around them.
 #[test]
 fn partition_of_unity_affine_invariance_and_convex_hull() {

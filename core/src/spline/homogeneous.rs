@@ -95,7 +95,7 @@ impl<V: VectorSpace> ControlPoint for Homogeneous<V> {
 
     #[inline(always)]
     fn project(self) -> V {
-        self.scaled / self.weight
+        self.scaled * (V::Scalar::ONE / self.weight)
     }
     /// The quotient rule.
     #[inline]

@@ -111,5 +111,6 @@ fn sums<'p, P: SurfacePoint>(
     }
     // Divided, not multiplied by the reciprocal: a control point comes out as it is.
     let [_, [first, _]] = P::project_partials(partials);
-    [partials[0][0].project(), first]
+    let (scaled, weight) = partials[0][0].to_scaled();
+    [scaled / weight, first]
 }

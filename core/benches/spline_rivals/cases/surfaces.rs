@@ -1,8 +1,7 @@
-//! Points, normals and triangles of surfaces, beside `curvo` and `truck-geometry`: a thousand random parameters each.
+//! Points, normals and triangles of surfaces.
 
 use std::hint::black_box;
 
-use criterion::{Criterion, criterion_group, criterion_main};
 use curvo::prelude::{AdaptiveTessellationOptions, NurbsSurface3D, Tessellation as _};
 use glam::{DVec3, Vec3};
 use nalgebra::Point4;
@@ -11,6 +10,8 @@ use truck_geometry::prelude::{
     BSplineSurface as TruckBSpline, KnotVec, NurbsSurface as TruckNurbs, ParameterDivision2D, ParametricSurface3D,
     Vector4,
 };
+
+use super::{Case, forever};
 
 /// Control points along `u` and `v`.
 const SIZE: [usize; 2] = [8, 7];
@@ -71,47 +72,51 @@ fn same() -> Same {
     Same { own, single, curvo, truck }
 }
 
-fn points(c: &mut Criterion) {
-    let (Same { own, single, curvo, truck }, uv) = (same(), parameters());
-    let (own, single) = (own.surface(), single.surface());
-    let mut group = c.benchmark_group("bicubic NURBS surface, 8 x 7 points: 1000 points");
-    group.bench_function("radiosity f64", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(own.point(u, v)))));
-    group.bench_function("radiosity f32", |b| {
-        b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(single.point(u as f32, v as f32))));
-    });
-    group.bench_function("curvo", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(curvo.point_at(u, v)))));
-    group.bench_function("truck", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(truck.subs(u, v)))));
-    group.finish();
+pub fn cases() -> Vec<Case> {
+    let Same { own, single, curvo, truck } = forever(same());
+    let (own, single, uv) = (own.surface(), single.surface(), parameters());
+    let (us, vs): (Vec<f64>, Vec<f64>) =
+        ((0..40).map(share).collect(), (0..25).map(|k| share(k) * 39.0 / 24.0).collect());
+    let grid: Vec<[f64; 2]> = vs.iter().flat_map(|&v| us.iter().map(move |&u| [u, v])).collect();
+    let title = |what: &str| format!("bicubic NURBS surface, 8 x 7 points: {what}");
+    let mut points = vec![DVec3::ZERO; grid.len()];
+    vec![
+        Case::new(&title("1000 points anywhere"))
+            .call("radiosity", &uv, move |[u, v]| own.point(u, v))
+            .call("radiosity, f32", &uv, move |[u, v]| single.point(u as f32, v as f32))
+            .call("curvo", &uv, |[u, v]| curvo.point_at(u, v))
+            .call("truck-geometry", &uv, |[u, v]| truck.subs(u, v)),
+        Case::new(&title("1000 points of a grid"))
+            .call("radiosity, sample", &[0], move |_| own.sample(&us, &vs, black_box(&mut points)))
+            .call("radiosity, point by point", &grid, move |[u, v]| own.point(u, v))
+            .call("curvo", &grid, |[u, v]| curvo.point_at(u, v))
+            .call("truck-geometry", &grid, |[u, v]| truck.subs(u, v)),
+        Case::new(&title("1000 normals"))
+            .call("radiosity", &uv, move |[u, v]| own.normal(u, v))
+            .call("curvo", &uv, |[u, v]| curvo.normal_at(u, v))
+            .call("truck-geometry", &uv, |[u, v]| truck.normal(u, v)),
+        tessellation(Case::new(&title("triangles"))),
+    ]
 }
 
-fn normals(c: &mut Criterion) {
-    let (Same { own, curvo, truck, .. }, uv) = (same(), parameters());
-    let own = own.surface();
-    let mut group = c.benchmark_group("bicubic NURBS surface, 8 x 7 points: 1000 normals");
-    group.bench_function("radiosity f64", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(own.normal(u, v)))));
-    group.bench_function("curvo", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(curvo.normal_at(u, v)))));
-    group.bench_function("truck", |b| b.iter(|| uv.iter().for_each(|&[u, v]| _ = black_box(truck.normal(u, v)))));
-    group.finish();
+fn share(k: u32) -> f64 {
+    f64::from(k) / 39.0
 }
 
 /// Each as it is made to be used: the numbers of triangles stand beside the times.
-fn tessellation(c: &mut Criterion) {
-    let Same { own, curvo, truck, .. } = same();
-    let mut group = c.benchmark_group("bicubic NURBS surface, 8 x 7 points: tessellation");
+fn tessellation(case: Case) -> Case {
+    let Same { own, curvo, truck, .. } = forever(same());
     let tolerance = Tolerance::new(5e-3, 0.2).unwrap();
-    let cut = || tessellate(&own.surface(), &tolerance, ChartScale::Area);
-    group.bench_function(format!("radiosity, 5 mm, {} triangles", cut().triangles.len()), |b| b.iter(cut));
+    let cut = move || tessellate(&own.surface(), &tolerance, ChartScale::Area);
     let default = || curvo.tessellate(Some(AdaptiveTessellationOptions::<f64>::default()));
-    group.bench_function(format!("curvo, by default, {} triangles", default().faces().len()), |b| b.iter(default));
     let grid = || {
         let (us, vs) = truck.parameter_division(((0.0, 1.0), (0.0, 1.0)), 5e-3);
         let at = vs.iter().flat_map(|&v| us.iter().map(move |&u| (u, v)));
         let vertices: Vec<_> = at.map(|(u, v)| (truck.subs(u, v), truck.normal(u, v))).collect();
         (2 * (us.len() - 1) * (vs.len() - 1), vertices)
     };
-    group.bench_function(format!("truck's grid, 5 mm, {} triangles", grid().0), |b| b.iter(grid));
-    group.finish();
+    let counts = [cut().triangles.len(), default().faces().len(), grid().0];
+    case.call(&format!("radiosity, 5 mm, {} triangles", counts[0]), &[0], move |_| cut())
+        .call(&format!("curvo, by default, {} triangles", counts[1]), &[0], move |_| default())
+        .call(&format!("truck-geometry's grid, 5 mm, {} triangles", counts[2]), &[0], move |_| grid())
 }
-
-criterion_group!(benches, points, normals, tessellation);
-criterion_main!(benches);
