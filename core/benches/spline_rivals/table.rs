@@ -8,7 +8,7 @@ use cases::Case;
 
 /// Runs of each, and seconds that all runs of a case may take.
 const MOST: usize = 400;
-const SECONDS: f64 = 2.5;
+const SECONDS: f64 = 1.5;
 
 fn main() {
     println!("| what | with | time | of ours |");

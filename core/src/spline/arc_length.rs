@@ -7,6 +7,7 @@ use crate::math::{Real, VectorSpace};
 ///
 /// Off by at most about `tolerance`, an absolute length, or by rounding if that is more; each piece between breaks is
 /// measured by [`Curve::piece_length`].
+#[inline]
 pub fn arc_length<C: Curve>(curve: &C, [from, to]: [Parameter<C>; 2], tolerance: Parameter<C>) -> Parameter<C> {
     if from > to {
         return -arc_length(curve, [to, from], tolerance);
@@ -186,6 +187,7 @@ fn invert<C: Curve>(
 /// The rules of Gauss with 8, 16 and 24 points, the first of which is exact enough by an estimate from the change of the
 /// velocity; else both halves. The estimates are those that Levien found for cubics and uses in kurbo. In all dimensions
 /// the square of the speed is one polynomial of degree 4, of which each rule takes roots.
+#[inline]
 pub(super) fn cubic_length<V: VectorSpace>(
     derivative: [V; 3],
     interval: [V::Scalar; 2],
@@ -194,6 +196,7 @@ pub(super) fn cubic_length<V: VectorSpace>(
     cubic_halves(derivative, interval, tolerance, DEEPEST)
 }
 
+#[inline]
 fn cubic_halves<V: VectorSpace>(
     derivative: [V; 3],
     interval: [V::Scalar; 2],
@@ -235,6 +238,7 @@ fn cubic_halves<V: VectorSpace>(
 struct SpeedSquared<R>([R; 5], R);
 
 impl<R: Real> SpeedSquared<R> {
+    #[inline]
     fn new<V: VectorSpace<Scalar = R>>([p, q, r]: [V; 3]) -> Self {
         let twice = |a: V, b: V| {
             let product = a.dot(b);
@@ -259,7 +263,7 @@ impl<R: Real> SpeedSquared<R> {
     }
 
     /// Four nodes at a time, as processors have it.
-    #[inline]
+    #[inline(always)]
     fn gauss<const N: usize>(&self, [nodes, weights]: &[[f64; N]; 2]) -> R {
         let mut lengths = [R::ZERO; 4];
         for (nodes, weights) in nodes.chunks_exact(4).zip(weights.chunks_exact(4)) {
@@ -271,18 +275,19 @@ impl<R: Real> SpeedSquared<R> {
     }
 
     /// The integral of the speed, and that of the squared change of the velocity in its own lengths.
-    #[inline]
+    #[inline(always)]
     fn gauss_8(&self) -> (R, R) {
         let ([.., d, e], change) = (self.0, self.1);
         let (twice, four) = (d + d, e * R::from_f64(4.0));
-        let [nodes, weights] = GAUSS_8.map(|numbers| numbers.map(R::from_f64));
+        let [nodes, weights] = &GAUSS_8;
         let (mut lengths, mut turns) = ([R::ZERO; 4], [R::ZERO; 4]);
-        for (i, x) in nodes.into_iter().enumerate() {
+        for i in 0..4 {
+            let (x, weight) = (R::from_f64(nodes[i]), R::from_f64(weights[i]));
             let [even, odd] = self.halves(x);
             let [before, after] = [(even - odd).max(R::ZERO), (even + odd).max(R::ZERO)];
-            lengths[i] = (before.sqrt() + after.sqrt()) * weights[i];
+            lengths[i] = (before.sqrt() + after.sqrt()) * weight;
             let (level, slope) = (change + four * (x * x), twice * x);
-            turns[i] = ((level + slope) * before + (level - slope) * after) / (before * after) * weights[i];
+            turns[i] = ((level + slope) * before + (level - slope) * after) / (before * after) * weight;
         }
         let sum = |parts: [R; 4]| (parts[0] + parts[1]) + (parts[2] + parts[3]);
         (sum(lengths), sum(turns))

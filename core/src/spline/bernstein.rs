@@ -32,10 +32,10 @@ pub(super) fn bernstein_sum<V: VectorSpace>(points: &[V], t: V::Scalar) -> V {
         [] => V::default(),
         [a] => a,
         [a, b] => a * s + b * t,
-        [a, b, c] => (a * s + b * (t + t)) * s + c * (t * t),
+        [a, b, c] => a * (s * s) + b * ((s + s) * t) + c * (t * t),
         [a, b, c, d] => {
-            let (tt, three) = (t * t, V::Scalar::from_f64(3.0));
-            ((a * s + b * (three * t)) * s + c * (three * tt)) * s + d * (tt * t)
+            let (ss, tt, three) = (s * s, t * t, V::Scalar::from_f64(3.0));
+            (a * (ss * s) + b * (three * ss * t)) + (c * (three * s * tt) + d * (tt * t))
         }
         _ => horner(points, t),
     }

@@ -146,6 +146,7 @@ impl<P: ControlPoint> Curve for Bezier<'_, P> {
         [P::Scalar::ZERO, P::Scalar::ONE]
     }
     evaluated_by_itself!();
+    #[inline]
     fn piece_length(&self, interval: [P::Scalar; 2], tolerance: P::Scalar) -> P::Scalar {
         match *self.0 {
             [a, b, c, d] => Cubic::from_bezier([a, b, c, d]).piece_length(interval, tolerance),

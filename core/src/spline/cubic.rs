@@ -87,6 +87,7 @@ impl<P: ControlPoint> Curve for Cubic<P> {
         [P::Scalar::ZERO, P::Scalar::ONE]
     }
     evaluated_by_itself!();
+    #[inline]
     fn piece_length(&self, interval: [P::Scalar; 2], tolerance: P::Scalar) -> P::Scalar {
         if P::DIMENSION > P::Point::DIMENSION {
             return integrate(self, interval, tolerance);

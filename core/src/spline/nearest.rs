@@ -25,6 +25,22 @@ const MOST: usize = 1 << 13;
 const STEPS: usize = 8;
 /// As many coefficients as the squared distance has.
 const COEFFICIENTS: usize = 2 * MAX_ORDER - 1;
+/// One over the binomial coefficients `C(2 n, k)`.
+static SHARES: [[f64; COEFFICIENTS]; MAX_ORDER] = shares();
+
+const fn shares() -> [[f64; COEFFICIENTS]; MAX_ORDER] {
+    let mut rows = [[1.0; COEFFICIENTS]; MAX_ORDER];
+    let mut n = 0;
+    while n < MAX_ORDER {
+        let mut k = 0;
+        while k < 2 * n {
+            rows[n][k + 1] = rows[n][k] * (k + 1) as f64 / (2 * n - k) as f64;
+            k += 1;
+        }
+        n += 1;
+    }
+    rows
+}
 
 impl<P: ControlPoint> Bezier<'_, P> {
     /// The point nearest to another one; of several, one of them.
@@ -155,16 +171,14 @@ impl<P: ControlPoint> Search<'_, P> {
         }
         let best = self.best.distance * self.best.distance;
         let known = best * (P::Scalar::ONE - P::Scalar::EPSILON * P::Scalar::from_f64(32.0));
-        let mut binomial = 1.0;
-        for (k, coefficient) in coefficients.iter_mut().enumerate() {
-            let pairs = k.saturating_sub(n)..=k.min(n);
-            let sum = pairs.map(|i| {
-                let j = k - i;
+        coefficients.fill(P::Scalar::ZERO);
+        for i in 0..=n {
+            for j in i..=n {
                 let excess = offsets[i].dot(offsets[j]) - points[i].weight() * points[j].weight() * known;
-                excess * P::Scalar::from_f64(PASCAL[n][i] * PASCAL[n][j])
-            });
-            *coefficient = sum.sum::<P::Scalar>() / P::Scalar::from_f64(binomial);
-            binomial = binomial * (2 * n - k) as f64 / (k + 1) as f64;
+                let twice = if i == j { 1.0 } else { 2.0 };
+                let share = twice * PASCAL[n][i] * PASCAL[n][j] * SHARES[n][i + j];
+                coefficients[i + j] += excess * P::Scalar::from_f64(share);
+            }
         }
     }
 }
