@@ -226,8 +226,9 @@ fn cubic_halves<V: VectorSpace>(
     if error(cubed * cubed, 1.5e-11, 9e-3) < tolerance {
         return square.gauss(&GAUSS_16);
     }
-    // Also where nothing can be said, as the speed is NaN.
-    if !(error(cubed * cubed * cubed, 3.5e-16, 3.5e-3) >= tolerance) || depth == 0 {
+    // False also where nothing can be said, as the speed is NaN.
+    let is_too_long = error(cubed * cubed * cubed, 3.5e-16, 3.5e-3) >= tolerance;
+    if !is_too_long || depth == 0 {
         return square.gauss(&GAUSS_24);
     }
     let half = tolerance * number(0.5);
