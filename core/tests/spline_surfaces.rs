@@ -405,3 +405,18 @@ fn errors_have_numbers() {
     let text = SplineError::Turn { angle: 7.0 }.to_string();
     assert!(text.contains("7 rad"), "{text}");
 }
+
+/// Whatever the parameter, the point or the ray, nothing panics.
+#[test]
+fn any_number_gives_a_result() {
+    let surfaces = [rational(), sphere(), torus()];
+    for surface in surfaces.iter().map(OwnedSurface::surface) {
+        for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1e300, 1e300, 5.0] {
+            let _ = (surface.point(x, 0.5), surface.at(0.5, x), surface.normal(x, x), surface.curvature(x, 0.1));
+            let _ = (surface.ray(DVec3::splat(x), DVec3::X), surface.ray(DVec3::ZERO, DVec3::splat(x)));
+            let _ = surface.nearest(DVec3::splat(x));
+            let _ = [Side::Bottom, Side::Right, Side::Top, Side::Left].map(|side| surface.edge(side, x));
+            assert!(surface.sample(&[x, 0.2], &[x], &mut [DVec3::ZERO; 2]).is_ok());
+        }
+    }
+}

@@ -323,6 +323,18 @@ fn texels_have_equal_areas() {
     }
 }
 
+/// Tolerances that no number of triangles reaches, and coordinates whose squares are no numbers, come to an end.
+#[test]
+fn everything_ends() {
+    let spike = [0.0, 1.0, -1.0, 0.0].map(|z| DVec3::new(z, 2.0 * z, z));
+    let fine = tessellate(&BSplineSurface::bezier(&spike, 2).unwrap(), &tolerance(1e-300, 1e-300), ChartScale::Area);
+    assert!(fine.triangles.len() < 1_000_000);
+    for size in [1e-200, 1e150, 1e200, 1e300] {
+        let points: Vec<DVec3> = (0..9).map(|k| DVec3::new(f64::from(k % 3), f64::from(k / 3), 0.0) * size).collect();
+        let _ = tessellate(&BSplineSurface::bezier(&points, 3).unwrap(), &tolerance(1.0, 0.5), ChartScale::Area);
+    }
+}
+
 #[test]
 fn tolerances_are_checked() {
     assert_eq!(Tolerance::new(0.0, 0.1).unwrap_err(), TessellationError::Chord { chord: 0.0 });

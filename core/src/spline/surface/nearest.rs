@@ -43,6 +43,10 @@ impl<P: SurfacePoint> BSplineSurface<'_, P> {
         let point = self.point(u, v);
         let best = NearestPoint { parameters: [u, v], point, distance: (point - target).length() };
         let mut search = Search { surface: self, target, best };
+        // Of a point beyond all numbers, all points are as far away as the first one.
+        if search.best.distance.partial_cmp(&Scalar::<P>::INFINITY) != Some(core::cmp::Ordering::Less) {
+            return search.best;
+        }
         let knots = [Direction::U, Direction::V].map(|direction| self.knots(direction));
         for j in knots[1].spans() {
             knots[0].spans().for_each(|i| search.piece([i, j]));

@@ -11,7 +11,9 @@ use crate::spline::{BSplineSurface, Direction, KnotVector, Scalar, Side, Surface
 /// Columns and rows that a cell is to have at most; larger ones are cut, so that each part takes what it needs itself.
 const WIDEST: usize = 8;
 /// Columns and rows that a piece between knots has at most.
-const MOST: usize = 1 << 10;
+const MOST: usize = 1 << 8;
+/// Edges of a surface are cut at multiples of such a share of a piece.
+const GRAINS: usize = 1 << 12;
 /// Samples of a cell in each direction.
 const SAMPLES: usize = 4;
 /// The skew of two edges is about the same if it differs by no more than this share.
@@ -68,17 +70,17 @@ impl<V: Vector> Demand<V> {
     }
 
     /// The fewest columns and rows with which all edges are near enough, or nearly so.
-    fn counts(&self, tolerance: &Tolerance<V::Scalar>) -> [usize; 2] {
+    fn counts(&self, tolerance: &Tolerance<V::Scalar>, most: usize) -> [usize; 2] {
         let alone = |k: usize| {
-            let most = self.0.iter().map(|bend| {
+            let bends = self.0.iter().map(|bend| {
                 let chord = bend.second[2 * k].abs() / tolerance.sagitta();
                 chord.max(bend.turns[k].length_squared() / (tolerance.angle * tolerance.angle))
             });
-            let least = most.fold(V::Scalar::ZERO, Real::max).sqrt().to_f64();
-            (least.to_usize() + usize::from(least > least.floor())).clamp(1, MOST)
+            let least = bends.fold(V::Scalar::ZERO, Real::max).sqrt().to_f64();
+            (least.to_usize() + usize::from(least > least.floor())).clamp(1, most)
         };
         let [mut n, mut m] = [alone(0), alone(1)];
-        while self.excess([n, m], tolerance) > V::Scalar::ONE && n.max(m) < MOST {
+        while self.excess([n, m], tolerance) > V::Scalar::ONE && n.max(m) < most {
             let finer = [[n + 1 + n / 16, m], [n, m + 1 + m / 16]];
             let cost = |[n, m]: [usize; 2]| V::Scalar::from_usize(n * m) * self.excess([n, m], tolerance);
             [n, m] = if cost(finer[0]) <= cost(finer[1]) { finer[0] } else { finer[1] };
@@ -167,7 +169,7 @@ fn most_counts<P: SurfacePoint>(
     for (j, &y) in spans[1].iter().enumerate() {
         for (i, &x) in spans[0].iter().enumerate() {
             let part = [interval(&surface.knots(Direction::U), x), interval(&surface.knots(Direction::V), y)];
-            let [n, m] = Demand::new(surface, [x, y], part).counts(tolerance);
+            let [n, m] = Demand::new(surface, [x, y], part).counts(tolerance, MOST);
             (most[0][i], most[1][j]) = (most[0][i].max(n), most[1][j].max(m));
         }
     }
@@ -265,7 +267,7 @@ impl<P: SurfacePoint> Cells<'_, P> {
         for (j, &y) in self.spans[1].iter().enumerate() {
             for (i, &x) in self.spans[0].iter().enumerate() {
                 let part = [[us[i], us[i + 1]], [vs[j], vs[j + 1]]];
-                self.counts.push(Demand::new(self.surface, [x, y], part).counts(self.tolerance));
+                self.counts.push(Demand::new(self.surface, [x, y], part).counts(self.tolerance, WIDEST + WIDEST / 2));
             }
         }
     }
@@ -353,7 +355,7 @@ impl<P: SurfacePoint> Cells<'_, P> {
         let of_span = |span: usize| {
             let [low, high] = interval(&knots, span);
             let share =
-                move |i: usize| low + (high - low) * (Scalar::<P>::from_usize(i) / Scalar::<P>::from_usize(MOST));
+                move |i: usize| low + (high - low) * (Scalar::<P>::from_usize(i) / Scalar::<P>::from_usize(GRAINS));
             let mut count = 1;
             while count < MOST && !(0..count).all(|i| self.holds(side, [i, i + 1].map(|i| share(mirrored(i, count))))) {
                 count += 1 + count / 8;
@@ -508,10 +510,10 @@ fn interval<R: Real>(knots: &KnotVector<R>, span: usize) -> [R; 2] {
     [knots.knots()[span], knots.knots()[span + 1]]
 }
 
-/// Share `i` of `count` in parts of [`MOST`], the same from either end.
+/// Share `i` of `count` in [`GRAINS`], the same from either end.
 fn mirrored(i: usize, count: usize) -> usize {
-    let rounded = |i: usize| (2 * i * MOST + count) / (2 * count);
-    if 2 * i <= count { rounded(i) } else { MOST - rounded(count - i) }
+    let rounded = |i: usize| (2 * i * GRAINS + count) / (2 * count);
+    if 2 * i <= count { rounded(i) } else { GRAINS - rounded(count - i) }
 }
 
 /// Lines at knots and between them, so that no cell needs many columns; and the interval of knots after each.

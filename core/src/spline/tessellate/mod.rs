@@ -36,7 +36,7 @@ impl<R: Real> Tolerance<R> {
     ///
     /// Each triangle is checked at seven points, so that the surface may be a little further away between them. Beside a
     /// straight edge along which a surface twists, normals turn by more: see [`tessellate`]. A piece of a surface between
-    /// knots has at most 1024 columns and rows, and triangles are halved at most 16 times more.
+    /// knots has at most 256 columns and rows, and what is left is cut into at most twice as many triangles and 65 536.
     ///
     /// # Errors
     ///

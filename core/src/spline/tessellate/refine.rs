@@ -8,8 +8,11 @@ use super::vertices::{Vertex, Vertices};
 use crate::math::{Real, VectorSpace as _};
 use crate::spline::{Scalar, SurfacePoint};
 
-/// How often a piece between knots is halved at most, for surfaces that no number of triangles follows.
+/// How often a piece between knots is halved at most.
 const HALVINGS: i32 = 16;
+/// So many times the triangles of the cells, and so many more, are there at most: for surfaces that no number follows.
+const GROWTH: usize = 2;
+const SPARE: usize = 1 << 16;
 /// Where the inside of a triangle is looked at besides its center.
 const INSIDE: [[f64; 3]; 3] = [[0.5, 0.25, 0.25], [0.25, 0.5, 0.25], [0.25, 0.25, 0.5]];
 const NONE: u32 = u32::MAX;
@@ -44,6 +47,8 @@ pub(super) struct Refiner<'a, P: SurfacePoint> {
     triangles: Vec<Triangle>,
     /// Edges not longer than this in one of the parameters are left as they are.
     finest: [Scalar<P>; 2],
+    /// Whether no more edges are to be halved.
+    is_last: bool,
 }
 
 impl<'a, P: SurfacePoint> Refiner<'a, P> {
@@ -55,7 +60,7 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
     ) -> Self {
         let finest = vertices.shortest_pieces().map(|length| length / Scalar::<P>::from_usize(1 << HALVINGS));
         let (edges, shared) = (Vec::new(), Vec::with_capacity(triangles.len()));
-        let mut refiner = Self { tolerance, chart, vertices, edges, triangles: shared, finest };
+        let mut refiner = Self { tolerance, chart, vertices, edges, triangles: shared, finest, is_last: false };
         let mut sides: Vec<([u32; 2], usize)> = Vec::with_capacity(3 * triangles.len());
         for (i, vertices) in triangles.iter().enumerate() {
             let [a, b, c] = *vertices;
@@ -71,8 +76,13 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         refiner
     }
 
-    /// Until nothing is too coarse: the vertices and the triangles. It ends, as edges become shorter each time.
+    /// Until nothing is too coarse, or there are far more triangles than cells gave: the vertices and the triangles.
     pub fn run(mut self) -> (Vec<Vertex<P::Point>>, Vec<[u32; 3]>) {
+        let most = GROWTH * self.triangles.len() + SPARE;
+        while self.halve_all() && self.triangles.len() < most {}
+        // What is not halved by now stays whole; triangles beside halved edges are still cut, so that nothing gapes.
+        self.is_last = true;
+        self.edges.iter_mut().for_each(|edge| edge.coarse &= edge.halves[0] != NONE);
         while self.halve_all() {}
         let triangles = self.triangles.iter().map(|triangle| triangle.vertices).collect();
         (self.vertices.all, triangles)
@@ -86,7 +96,13 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         // Where a straight edge of the surface twists, no number of halvings makes the normals beside it agree.
         let holds =
             self.tolerance.holds_chord_inside(edge) && (a.border || b.border || self.tolerance.holds_turn_inside(edge));
-        self.edges.push(Edge { ends, middle, coarse: divisible && !holds, divisible, halves: [NONE; 3] });
+        self.edges.push(Edge {
+            ends,
+            middle,
+            coarse: divisible && !holds && !self.is_last,
+            divisible,
+            halves: [NONE; 3],
+        });
         self.edges.len() as u32 - 1
     }
 
@@ -102,7 +118,7 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         let before = core::mem::take(&mut self.triangles);
         let mut changed = false;
         for mut triangle in before {
-            if !triangle.flat && !self.is_coarse(&triangle) {
+            if !triangle.flat && !self.is_last && !self.is_coarse(&triangle) {
                 self.judge(&triangle);
                 triangle.flat = true;
             }
