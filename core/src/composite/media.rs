@@ -16,6 +16,12 @@ use crate::math::{exp, exp_m1};
 /// Pieces into which a stretch with several media is cut, where it has an end.
 const PIECES: u32 = 64;
 
+/// An optical depth through which nothing is seen, and that can be added to others.
+const ENDLESS: f32 = 1e30;
+
+/// Where endless rays end for media, in multiples of the direction: far enough, and depths up to there have a ratio.
+const FAR: f32 = 1e9;
+
 /// What fills a part of space.
 pub trait Medium {
     /// The integral of the extinction coefficient along a ray between two places, given in multiples of its direction with
@@ -86,15 +92,12 @@ impl Medium for HeightFog {
     fn optical_depth(&self, ray: &Ray, from: f32, to: f32) -> f32 {
         let start = (ray.origin + ray.direction * from - self.base).dot(self.up) / self.scale;
         let slope = ray.direction.dot(self.up) / self.scale;
-        let rise = slope * (to - from);
-        let length = ray.direction.length();
-        let extinction = if self.extinction > 0.0 { self.extinction * exp(-start) } else { 0.0 };
-        match rise {
-            _ if extinction == 0.0 => 0.0,
-            _ if slope == 0.0 || rise.abs() < 1e-3 => depth_of(extinction, length * (to - from) * (1.0 - 0.5 * rise)),
-            // Endless ways have a finite depth upwards.
-            _ => (extinction * length * -exp_m1(-rise) / slope).max(0.0),
+        let extinction = self.extinction * exp(-start);
+        // Upwards even an endless way has a finite depth; along the ground it has none.
+        if slope == 0.0 {
+            return depth_of(extinction, ray.direction.length() * (to - from));
         }
+        depth_of(extinction, ray.direction.length() / slope * -exp_m1(-slope * (to - from)))
     }
 
     fn color(&self) -> Vec3 {
@@ -249,14 +252,14 @@ pub fn through(
     let mut seen = PremultipliedRgba::TRANSPARENT;
     let mut from = 0.0;
     for (place, surface) in surfaces {
-        let place = place.clamp(from, ray.end.max(from));
+        let place = place.min(ray.end).max(from);
         seen = seen.over(stretch(ray, media, from, place)).over(surface);
         from = place;
         if seen.is_opaque() {
             return seen;
         }
     }
-    seen.over(stretch(ray, media, from, ray.end))
+    seen.over(stretch(ray, media, from, ray.end.min(FAR)))
 }
 
 /// All media between two places, from where one begins or ends to the next such place.
@@ -267,7 +270,7 @@ fn stretch(ray: &Ray, media: &[&dyn Medium], from: f32, to: f32) -> Premultiplie
         let borders = media.iter().flat_map(|medium| medium.extent(ray));
         let next = borders.filter(|&border| border > at).fold(to, f32::min);
         let met = media.iter().filter(|medium| medium.optical_depth(ray, at, next) > 0.0).count();
-        let pieces = if met > 1 && next < f32::INFINITY { PIECES } else { 1 };
+        let pieces = if met > 1 && next < FAR { PIECES } else { 1 };
         let place = |k: u32| if k == pieces { next } else { at + (next - at) * (k as f32 / pieces as f32) };
         for k in 0..pieces {
             seen = seen.over(mixed(ray, media, place(k), place(k + 1)));
@@ -281,7 +284,7 @@ fn stretch(ray: &Ray, media: &[&dyn Medium], from: f32, to: f32) -> Premultiplie
 fn mixed(ray: &Ray, media: &[&dyn Medium], from: f32, to: f32) -> PremultipliedRgba {
     let (mut sum, mut colors) = (0.0, Vec3::ZERO);
     for medium in media {
-        let optical_depth = medium.optical_depth(ray, from, to).min(f32::MAX);
+        let optical_depth = medium.optical_depth(ray, from, to).min(ENDLESS);
         sum += optical_depth;
         let share = if sum > 0.0 { optical_depth / sum } else { 0.0 };
         colors = colors.lerp(medium.color(), share);

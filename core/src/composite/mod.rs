@@ -16,6 +16,7 @@ mod over;
 mod pane;
 mod porter_duff;
 mod raster;
+mod sort;
 mod sprite;
 #[cfg(feature = "alloc")]
 mod tiles;
@@ -29,4 +30,5 @@ pub use over::*;
 pub use pane::*;
 pub use porter_duff::*;
 pub use raster::*;
+pub use sort::*;
 pub use sprite::*;
