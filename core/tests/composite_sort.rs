@@ -36,12 +36,14 @@ fn sorted_as_by_the_standard_library() {
             let mut draws: Vec<Draw> = (0..count).map(|k| Draw { key: key(k), rank: k, index: k }).collect();
             let mut expected = draws.clone();
             expected.sort_by_key(|draw| draw.key);
-            let mut again = draws.clone();
-            sort(&mut draws);
+            let (mut again, mut in_place) = (draws.clone(), draws.clone());
+            let mut scratch = expected.clone();
+            sort(&mut draws, &mut scratch);
             assert_eq!(indices(&draws), indices(&expected), "{count} of kind {kind}");
             assert!((0..).zip(&draws).all(|(rank, draw)| draw.rank == rank));
-            resort(&mut again, 0.0);
-            assert_eq!(again, draws);
+            resort(&mut again, &mut scratch, 0.0);
+            sort(&mut in_place, &mut []);
+            assert_eq!([&again, &in_place], [&draws; 2]);
         }
     }
 }
@@ -50,13 +52,13 @@ fn sorted_as_by_the_standard_library() {
 #[test]
 fn frame_by_frame() {
     let mut order = draws((0..2000).map(|k| -100.0 * chance(1, k)));
-    sort(&mut order);
+    sort(&mut order, &mut []);
     for frame in 0..200 {
         for draw in &mut order {
             let depth = -100.0 * chance(1, draw.index) + 3.0 * (0.02 * frame as f32 * chance(2, draw.index)).sin();
             draw.key = DrawKey::new(0, 0, depth);
         }
-        resort(&mut order, 0.0);
+        resort(&mut order, &mut [], 0.0);
         assert!(order.is_sorted_by_key(|draw| draw.key));
     }
 }
@@ -65,7 +67,7 @@ fn frame_by_frame() {
 #[test]
 fn equal_depths_do_not_flicker() {
     let mut order = draws((0..40).map(|k| if k % 2 == 0 { -5.0 } else { -10.0 * chance(3, k) }));
-    sort(&mut order);
+    sort(&mut order, &mut []);
     let calm = indices(&order);
     let mut changed = 0;
     for frame in 0..500 {
@@ -75,9 +77,9 @@ fn equal_depths_do_not_flicker() {
             draw.key = DrawKey::new(0, 0, depth + 1e-5 * (chance(frame, k) - 0.5));
         }
         let mut hasty = order.clone();
-        resort(&mut hasty, 0.0);
+        resort(&mut hasty, &mut [], 0.0);
         changed += usize::from(indices(&hasty) != calm);
-        resort(&mut order, 1e-4);
+        resort(&mut order, &mut [], 1e-4);
         assert_eq!(indices(&order), calm, "frame {frame}");
     }
     assert!(changed > 400, "without a tolerance they flicker: {changed}");
@@ -95,7 +97,7 @@ fn no_pair_is_wrong_by_more_than_the_tolerance() {
                 draw.key = DrawKey::new(0, 0, -chance(4, draw.index) + 0.008 * chance(frame + 9, draw.index));
             }
             let before: Vec<(u32, u32)> = order.windows(2).map(|pair| (pair[0].index, pair[1].index)).collect();
-            resort(&mut order, tolerance);
+            resort(&mut order, &mut [], tolerance);
             changes += order.windows(2).filter(|pair| !before.contains(&(pair[0].index, pair[1].index))).count();
             let mut farthest = f32::INFINITY;
             for draw in order.iter().rev() {
@@ -112,12 +114,12 @@ fn no_pair_is_wrong_by_more_than_the_tolerance() {
 #[test]
 fn things_come_and_go() {
     let mut order = draws((0..500).map(|k| -100.0 * chance(5, k)));
-    sort(&mut order);
+    sort(&mut order, &mut []);
     for frame in 1..50 {
         order.retain(|draw| draw.index % 50 != frame);
         let index = 1000 + frame;
         order.push(Draw { key: DrawKey::new(0, 0, -100.0 * chance(6, frame)), rank: u32::MAX, index });
-        resort(&mut order, 1e-6);
+        resort(&mut order, &mut [], 1e-6);
         assert!(order.is_sorted_by_key(|draw| draw.key));
         assert!(order.iter().any(|draw| draw.index == index));
     }

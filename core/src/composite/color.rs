@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 use crate::math;
 use crate::spectrum::{linear_to_srgb, srgb_to_linear};
@@ -55,8 +55,7 @@ impl Channel for f32 {
     }
     #[inline(always)]
     fn over(front: [Self; 4], back: [Self; 4]) -> [Self; 4] {
-        let passing = 1.0 - front[3];
-        core::array::from_fn(|k| front[k] + passing * back[k])
+        (Vec4::from_array(front) + (1.0 - front[3]) * Vec4::from_array(back)).to_array()
     }
 }
 
@@ -125,13 +124,21 @@ impl Channel for u16 {
     fn sound([r, g, b, alpha]: [Self; 4]) -> [Self; 4] {
         [r.min(alpha), g.min(alpha), b.min(alpha), alpha]
     }
+    /// As for bytes, in the halves of two words: `x / 65535` to the nearest.
     #[inline(always)]
     fn over(front: [Self; 4], back: [Self; 4]) -> [Self; 4] {
-        let passing = u32::from(65535 - front[3]);
-        core::array::from_fn(|k| {
-            let product = u32::from(back[k]) * passing + 32768;
-            front[k].wrapping_add(((product + (product >> 16)) >> 16) as Self)
-        })
+        const EVEN: u64 = 0x0000_ffff_0000_ffff;
+        let word = |[a, b, c, d]: [Self; 4]| {
+            u64::from(a) | u64::from(b) << 16 | u64::from(c) << 32 | u64::from(d) << 48
+        };
+        let (front, back) = (word(front), word(back));
+        let passing = 65535 - (front >> 48);
+        let [even, odd] = [back & EVEN, (back >> 16) & EVEN].map(|pair| {
+            let product = pair * passing + 0x0000_8000_0000_8000;
+            product + ((product >> 16) & EVEN)
+        });
+        let sum = front.wrapping_add(((even >> 16) & EVEN) | (odd & !EVEN));
+        [sum as Self, (sum >> 16) as Self, (sum >> 32) as Self, (sum >> 48) as Self]
     }
 }
 

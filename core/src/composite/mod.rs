@@ -17,6 +17,8 @@ mod pane;
 mod porter_duff;
 mod raster;
 mod sort;
+mod span;
+mod split;
 mod sprite;
 #[cfg(feature = "alloc")]
 mod tiles;
@@ -31,4 +33,6 @@ pub use pane::*;
 pub use porter_duff::*;
 pub use raster::*;
 pub use sort::*;
+pub use span::*;
+pub use split::*;
 pub use sprite::*;

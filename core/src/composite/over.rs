@@ -68,17 +68,6 @@ pub fn back_to_front<C: Channel>(layers: impl IntoIterator<Item = PremultipliedR
     layers.into_iter().fold(PremultipliedRgba::TRANSPARENT, |merged, layer| layer.over(merged))
 }
 
-/// Lays a row of pixels over another, as far as both reach.
-///
-/// As fast as memory: the loop has neither branches nor divisions and becomes vector instructions for all three ways of
-/// storing.
-#[inline]
-pub fn over_span<C: Channel>(front: &[PremultipliedRgba<C>], back: &mut [PremultipliedRgba<C>]) {
-    for (&front, back) in front.iter().zip(back) {
-        *back = front.over(*back);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! The order in which transparent things are drawn: keys, and sorting them in place.
 //!
 //! [`ViewDepth`] measures how near a thing is, [`DrawKey`] puts layer, priority and depth into one number, [`sort`] orders
-//! from scratch and [`resort`] from the order of the frame before. All of it happens in the caller's slice.
+//! from scratch and [`resort`] from the order of the frame before. All of it happens in the caller's slices.
 
 mod depth;
 mod key;
@@ -29,13 +29,23 @@ pub struct Draw {
     pub index: u32,
 }
 
-/// Sorts things to be drawn: lower layers first, then lower priorities, then from far to near. Equal ones come in the
-/// order of their ranks. Ranks are then the places in the new order.
+/// Sorts things to be drawn: lower layers first, then lower priorities, then from far to near. Equal ones stay in the
+/// order in which they stand. Ranks are then the places in the new order.
 ///
-/// A radix sort within the slice; it takes time proportional to the number of entries, without any memory but a few
-/// kilobytes of stack.
-pub fn sort(draws: &mut [Draw]) {
-    radix_sort(draws);
+/// With `scratch` as long as `draws` it is a radix sort, in time proportional to their number; what stands there does not
+/// matter. A shorter one, even none, is enough for a sort by comparisons.
+///
+/// ```
+/// use radiosity::composite::{Draw, DrawKey, sort};
+///
+/// let mut draws = [(0, -2.0), (1, -9.0), (2, -5.0)]
+///     .map(|(index, depth)| Draw { key: DrawKey::new(0, 0, depth), rank: 0, index });
+/// sort(&mut draws, &mut []);
+/// assert_eq!(draws.map(|draw| draw.index), [1, 2, 0], "from far to near");
+/// ```
+pub fn sort(draws: &mut [Draw], scratch: &mut [Draw]) {
+    renumber(draws);
+    radix_sort(draws, scratch);
     renumber(draws);
 }
 
@@ -45,9 +55,9 @@ pub fn sort(draws: &mut [Draw]) {
 /// Things whose depths differ by no more than `tolerance` keep the order that they had, unless a third one forces them
 /// apart; so that things at the same depth do not flicker when rounding, or a camera that trembles, favors now one and now
 /// the other. All others are in true order, without exception. New things are appended, with the rank `u32::MAX`.
-pub fn resort(draws: &mut [Draw], tolerance: f32) {
+pub fn resort(draws: &mut [Draw], scratch: &mut [Draw], tolerance: f32) {
     if !insertion_sort(draws, PATIENCE * draws.len()) {
-        radix_sort(draws);
+        radix_sort(draws, scratch);
     }
     if tolerance > 0.0 {
         draws.chunk_by_mut(|a, b| a.key.group() == b.key.group()).for_each(|group| keep_order(group, tolerance));
@@ -64,7 +74,7 @@ fn insertion_sort(draws: &mut [Draw], mut moves: usize) -> bool {
     for k in 1..draws.len() {
         let draw = draws[k];
         let mut place = k;
-        while place > 0 && draw.is_before(&draws[place - 1]) {
+        while place > 0 && draw.key < draws[place - 1].key {
             draws[place] = draws[place - 1];
             place -= 1;
         }
@@ -84,6 +94,10 @@ fn keep_order(group: &mut [Draw], tolerance: f32) {
     let mut end = 0;
     while next < group.len() {
         let limit = group[next].key.depth() + tolerance;
+        if group.get(next + 1).is_none_or(|draw| draw.key.depth() > limit) {
+            next += 1;
+            continue;
+        }
         end = end.max(next + 1);
         end += group[end..].iter().take_while(|draw| draw.key.depth() <= limit).count();
         let is_apart = group.get(end).is_none_or(|draw| draw.key.depth() > group[end - 1].key.depth() + tolerance);

@@ -1,67 +1,52 @@
-//! Sorting by digits, within the slice.
-
-use core::cmp::Ordering;
+//! Sorting by digits, between two slices.
 
 use super::Draw;
 
 /// Fewer entries are compared with each other.
-const FEW: usize = 192;
+const FEW: usize = 256;
 
-/// Values of a digit.
-const DIGITS: usize = 256;
+/// Values of a digit, and its bits.
+const VALUES: usize = 256;
+const BITS: u32 = 8;
 
-impl Draw {
-    /// By key; among equals by rank, and among new ones by index.
-    #[inline]
-    pub(super) fn is_before(&self, other: &Self) -> bool {
-        self.order(other) == Ordering::Less
-    }
-
-    #[inline]
-    fn order(&self, other: &Self) -> Ordering {
-        let by_key = self.key.cmp(&other.key);
-        by_key.then_with(|| (self.rank, self.index).cmp(&(other.rank, other.index)))
-    }
-}
-
-/// Sorts by keys from their highest digit that differs: McIlroy, Bostic and McIlroy, "Engineering Radix Sort", 1993. A digit
-/// is eight bits from the highest one in which any two keys differ, so that none is spent on what all have in common: a
-/// layer, a sign, most of an exponent.
-pub fn radix_sort(draws: &mut [Draw]) {
-    let first = draws.first().map_or(0, |draw| draw.key.bits());
+/// Sorts by the lowest digit, then by the next one, and so on, each time stably: from one slice to the other and back.
+/// Digits that are the same in all keys, as mostly those of layer and priority, cost nothing. Without room for that, and
+/// where entries are few, by comparisons.
+pub fn radix_sort(draws: &mut [Draw], scratch: &mut [Draw]) {
+    let Some(scratch) = scratch.get_mut(..draws.len()).filter(|_| draws.len() > FEW) else {
+        return sort_by_comparisons(draws);
+    };
+    let first = draws[0].key.bits();
     let differing = draws.iter().fold(0, |differing, draw| differing | (draw.key.bits() ^ first));
-    if draws.len() <= FEW || differing == 0 {
-        draws.sort_unstable_by(Draw::order);
-        return;
+    let (mut from, mut to) = (draws, scratch);
+    let mut is_swapped = false;
+    for shift in (0..u64::BITS).step_by(BITS as usize).filter(|&shift| (differing >> shift) as u8 > 0) {
+        distribute(from, to, |draw| (draw.key.bits() >> shift) as u8 as usize);
+        (from, to) = (to, from);
+        is_swapped = !is_swapped;
     }
-    let shift = (u64::BITS - differing.leading_zeros()).saturating_sub(8);
-    let digit = |draw: &Draw| (draw.key.bits() >> shift) as u8 as usize;
-    let mut rest = draws;
-    for count in distribute(rest, digit) {
-        let (bucket, others) = rest.split_at_mut(count as usize);
-        radix_sort(bucket);
-        rest = others;
+    if is_swapped {
+        to.copy_from_slice(from);
     }
 }
 
-/// Puts each entry into the bucket of its digit, one bucket after the other, and returns how long they are.
-fn distribute(draws: &mut [Draw], digit: impl Fn(&Draw) -> usize) -> [u32; DIGITS] {
-    let mut counts = [0_u32; DIGITS];
-    draws.iter().for_each(|draw| counts[digit(draw)] += 1);
-    let (mut next, mut ends) = ([0_u32; DIGITS], [0_u32; DIGITS]);
-    let mut sum = 0;
-    for k in 0..DIGITS {
-        next[k] = sum;
-        sum += counts[k];
-        ends[k] = sum;
+/// Puts entries in the order of a digit.
+fn distribute(from: &[Draw], to: &mut [Draw], digit: impl Fn(&Draw) -> usize) {
+    let mut counts = [0_u32; VALUES];
+    from.iter().for_each(|draw| counts[digit(draw)] += 1);
+    let mut next = [0_u32; VALUES];
+    (1..VALUES).for_each(|k| next[k] = next[k - 1] + counts[k - 1]);
+    for draw in from {
+        let place = &mut next[digit(draw)];
+        to[*place as usize] = *draw;
+        *place += 1;
     }
-    for k in 0..DIGITS {
-        while next[k] < ends[k] {
-            let place = next[k] as usize;
-            let home = digit(&draws[place]);
-            draws.swap(place, next[home] as usize);
-            next[home] += 1;
-        }
+}
+
+/// Equal keys by rank, and new ones by index: which is the order in which they stand.
+fn sort_by_comparisons(draws: &mut [Draw]) {
+    draws.sort_unstable_by_key(|draw| draw.key);
+    for equal in draws.chunk_by_mut(|a, b| a.key == b.key).filter(|equal| equal.len() > 1) {
+        equal.sort_unstable_by_key(|draw| (draw.rank, draw.index));
     }
-    counts
 }
