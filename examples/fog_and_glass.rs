@@ -22,7 +22,7 @@ const EYE: Vec3 = Vec3::new(0.6, 1.7, 6.5);
 const TARGET: Vec3 = Vec3::new(0.0, 1.35, 0.0);
 /// Towards the lamp, which lights everything from the side.
 const LIGHT: Vec3 = Vec3::new(0.48, 0.64, 0.6);
-const SKY: Vec3 = Vec3::new(0.35, 0.45, 0.6);
+const SKY: Vec3 = Vec3::new(0.2, 0.32, 0.55);
 
 /// A triangle in space with its color at each corner.
 struct Triangle {
@@ -33,6 +33,7 @@ struct Triangle {
 fn main() -> Result<(), Box<dyn Error>> {
     let mut triangles = floor();
     (0..14).for_each(|k| add_column(&mut triangles, vec3([-1.8, 1.8][k % 2], 0.0, 3.0 - 3.0 * (k / 2) as f32)));
+    add_glass(&mut triangles);
     let count = (SIZE[0] * SIZE[1]) as usize;
     let mut pixels = vec![Layers::<K>::EMPTY; count * SAMPLES];
     let mut picture = Framebuffer::new(SIZE, Samples::Four, &mut pixels)?;
@@ -46,12 +47,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         picture.draw(&corners.map(|corner| clip * corner.extend(1.0)), |fragment| mixed(fragment.weights));
     }
     let densities = smoke_densities();
-    let smoke = Smoke::new([vec3(-1.6, 0.0, -3.5), vec3(1.6, 3.0, -1.0)], GRID, &densities, vec3(0.75, 0.7, 0.65))?;
-    let fog = HeightFog { color: vec3(0.55, 0.62, 0.7), extinction: 0.16, base: Vec3::ZERO, up: Vec3::Y, scale: 1.2 };
+    let smoke = Smoke::new([vec3(-1.3, 0.0, -4.6), vec3(1.7, 4.2, -1.6)], GRID, &densities, Vec3::splat(0.05))?;
+    let fog = HeightFog { color: vec3(0.6, 0.62, 0.64), extinction: 0.2, base: Vec3::ZERO, up: Vec3::Y, scale: 0.8 };
     let glass = stained_glass();
     let pane = GlassPane {
-        corner: vec3(-1.35, 2.35, 2.6),
-        across: vec3(1.75, 0.0, -0.5),
+        corner: vec3(-1.75, 2.45, 2.2),
+        across: vec3(1.6, 0.0, -0.7),
         down: vec3(0.0, -2.1, 0.0),
         picture: Sprite::new(GLASS[0], &glass)?,
     };
@@ -90,7 +91,7 @@ fn shown(ray: &Ray, pixel: &Layers<K>, pane: &GlassPane, media: &[&dyn Medium]) 
 }
 
 fn lit(albedo: Vec3, normal: Vec3) -> PremultipliedRgba {
-    PremultipliedRgba::adding(albedo * (0.25 + 0.9 * normal.dot(LIGHT).max(0.0)), 1.0)
+    PremultipliedRgba::adding(albedo * (0.14 + 0.75 * normal.dot(LIGHT).max(0.0)), 1.0)
 }
 
 /// Tiles in two shades.
@@ -112,7 +113,19 @@ fn quad(corner: Vec3, across: Vec3, up: Vec3, [left, right]: [PremultipliedRgba;
     ]
 }
 
-/// A column of marble, and a beam of clear glass around it at half height.
+/// A column of marble.
+/// Panes of tinted glass that stand one behind the other, each turned a little more.
+fn add_glass(triangles: &mut Vec<Triangle>) {
+    const TINTS: [[f32; 3]; 4] = [[0.02, 0.35, 0.3], [0.6, 0.3, 0.02], [0.45, 0.05, 0.2], [0.05, 0.15, 0.5]];
+    for (k, rgb) in TINTS.into_iter().enumerate() {
+        let (sin, cos) = (0.35 * k as f32 - 0.5).sin_cos();
+        let across = vec3(cos, 0.0, sin) * 1.5;
+        let corner = vec3(0.1 + 0.3 * k as f32, 0.0, 2.2 - 1.5 * k as f32);
+        let glass = StraightRgba { rgb, alpha: 0.5 }.premultiplied();
+        triangles.extend(quad(corner, across, Vec3::Y * (1.0 + 0.5 * k as f32), [glass; 2]));
+    }
+}
+
 fn add_column(triangles: &mut Vec<Triangle>, foot: Vec3) {
     const SIDES: usize = 24;
     let out = |k: usize| {
@@ -122,9 +135,12 @@ fn add_column(triangles: &mut Vec<Triangle>, foot: Vec3) {
     for k in 0..SIDES {
         let [from, to] = [out(k), out(k + 1)];
         let marble = vec3(0.8, 0.75, 0.68);
-        triangles.extend(quad(foot + from * 0.28, (to - from) * 0.28, Vec3::Y * 3.2, [from, to].map(|n| lit(marble, n))));
-        let glass = StraightRgba { rgb: [0.1, 0.5, 0.4], alpha: 0.35 }.premultiplied();
-        triangles.extend(quad(foot + Vec3::Y * 1.2 + from * 0.5, (to - from) * 0.5, Vec3::Y * 0.5, [glass; 2]));
+        triangles.extend(quad(
+            foot + from * 0.28,
+            (to - from) * 0.28,
+            Vec3::Y * 3.2,
+            [from, to].map(|n| lit(marble, n)),
+        ));
     }
 }
 
@@ -132,7 +148,8 @@ const GLASS: [usize; 2] = [240, 288];
 
 /// Rings of colors between leads, in a frame.
 fn stained_glass() -> Vec<PremultipliedRgba> {
-    const PANES: [[f32; 3]; 5] = [[0.9, 0.75, 0.1], [0.8, 0.1, 0.08], [0.1, 0.25, 0.75], [0.05, 0.5, 0.2], [0.5, 0.1, 0.5]];
+    const PANES: [[f32; 3]; 5] =
+        [[0.9, 0.75, 0.1], [0.8, 0.1, 0.08], [0.1, 0.25, 0.75], [0.05, 0.5, 0.2], [0.5, 0.1, 0.5]];
     let pixel = |k: usize| {
         let (x, y) = ((k % GLASS[0]) as f32 - 119.5, (k / GLASS[0]) as f32 - 143.5);
         let (radius, turn) = (x.hypot(y), y.atan2(x) / TAU * 12.0 + 12.0);
@@ -159,7 +176,7 @@ fn smoke_densities() -> Vec<f32> {
         let distance = (x - 0.5 - 0.16 * y * sin).hypot(z - 0.5 - 0.16 * y * cos);
         let width = 0.06 + 0.16 * y;
         let puffs = 0.65 + 0.35 * (17.0 * y + 9.0 * x).sin();
-        5.0 * puffs * (-(distance / width).powi(2)).exp() * (1.0 - y).max(0.0).sqrt()
+        9.0 * puffs * (-(distance / width).powi(2)).exp() * (1.0 - y).max(0.0).sqrt()
     };
     (0..GRID.iter().product()).map(density).collect()
 }

@@ -7,7 +7,8 @@ use std::io::BufWriter;
 use radiosity::composite::{Channel, PremultipliedRgba, Sprite, StraightRgba};
 
 const FILE: &str = "mouse_pointer.png";
-const [WIDTH, HEIGHT]: [usize; 2] = [640, 360];
+const WIDTH: usize = 640;
+const HEIGHT: usize = 360;
 
 /// Corners of the pointer, in units of its width.
 const ARROW: [[f32; 2]; 7] =

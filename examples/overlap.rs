@@ -16,8 +16,9 @@ const SIZE: [u32; 2] = [320, 360];
 const PIXELS: usize = 320 * 360;
 const EYE: Vec3 = Vec3::new(0.0, 0.4, 4.4);
 
-const COLORS: [[f32; 3]; 5] = [[0.9, 0.1, 0.05], [0.05, 0.6, 0.15], [0.1, 0.2, 0.9], [0.95, 0.65, 0.0], [0.5, 0.1, 0.6]];
-const ALPHA: f32 = 0.75;
+const COLORS: [[f32; 3]; 5] =
+    [[0.9, 0.1, 0.05], [0.05, 0.6, 0.15], [0.1, 0.2, 0.9], [0.95, 0.65, 0.0], [0.5, 0.1, 0.6]];
+const ALPHA: f32 = 0.9;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let panes = panes();
@@ -45,7 +46,8 @@ fn panes() -> Vec<[Vec3; 4]> {
     let bar = |k: usize| {
         let (sin, cos) = (k as f32 * TAU / 3.0).sin_cos();
         let turn = |p: Vec3| vec3(p.x * cos - p.y * sin, p.x * sin + p.y * cos - 0.35, p.z);
-        [(-1.0, -0.6, -0.3), (1.0, -0.6, 0.3), (1.0, -0.2, 0.3), (-1.0, -0.2, -0.3)].map(|(x, y, z)| turn(vec3(x, y, z)))
+        [(-1.0, -0.6, -0.3), (1.0, -0.6, 0.3), (1.0, -0.2, 0.3), (-1.0, -0.2, -0.3)]
+            .map(|(x, y, z)| turn(vec3(x, y, z)))
     };
     let cross = |tilt: f32| {
         [(-0.9, 1.0), (0.9, 1.0), (0.9, 1.55), (-0.9, 1.55)].map(|(x, y)| vec3(x, y + 0.1 * tilt, tilt * x))
@@ -74,7 +76,8 @@ fn color(source: u32) -> PremultipliedRgba {
 
 /// One after the other, each over what is there.
 fn painted(pieces: &[Piece]) -> Result<Vec<PremultipliedRgba>, RasterError> {
-    let drawn = pieces.iter().zip(1_u16..).map(|(piece, place)| (piece.corners(), piece.source, f32::from(place) / 1e3));
+    let drawn =
+        pieces.iter().zip(1_u16..).map(|(piece, place)| (piece.corners(), piece.source, f32::from(place) / 1e3));
     drawn_by(drawn.collect::<Vec<_>>(), |z, place| Vec4::new(z.x, z.y, place * z.w, z.w))
 }
 

@@ -35,7 +35,9 @@ fn with_smoke(test: impl FnOnce(&Smoke)) {
 #[test]
 fn fog_on_known_values() {
     let fog = Fog { color: Vec3::ONE, extinction: 0.25 };
-    for (meters, passing) in [(0.0, 1.0), (4.0, 0.367_879_44), (8.0, 0.135_335_28), (2.772_588_7, 0.5), (f32::INFINITY, 0.0)] {
+    for (meters, passing) in
+        [(0.0, 1.0), (4.0, 0.367_879_44), (8.0, 0.135_335_28), (2.772_588_7, 0.5), (f32::INFINITY, 0.0)]
+    {
         let alpha = 1.0 - passing;
         assert_near(fog.layer(&RAY, 0.0, meters), PremultipliedRgba::new([alpha; 4]), 1e-6);
     }

@@ -128,9 +128,8 @@ impl Channel for u16 {
     #[inline(always)]
     fn over(front: [Self; 4], back: [Self; 4]) -> [Self; 4] {
         const EVEN: u64 = 0x0000_ffff_0000_ffff;
-        let word = |[a, b, c, d]: [Self; 4]| {
-            u64::from(a) | u64::from(b) << 16 | u64::from(c) << 32 | u64::from(d) << 48
-        };
+        let word =
+            |[a, b, c, d]: [Self; 4]| u64::from(a) | u64::from(b) << 16 | u64::from(c) << 32 | u64::from(d) << 48;
         let (front, back) = (word(front), word(back));
         let passing = 65535 - (front >> 48);
         let [even, odd] = [back & EVEN, (back >> 16) & EVEN].map(|pair| {
@@ -171,7 +170,10 @@ impl<C: Channel> StraightRgba<C> {
 
     /// The same color stored in another way, to the nearest.
     pub fn stored_as<D: Channel>(self) -> StraightRgba<D> {
-        StraightRgba { rgb: self.rgb.map(|channel| D::from_f32(channel.to_f32())), alpha: D::from_f32(self.alpha.to_f32()) }
+        StraightRgba {
+            rgb: self.rgb.map(|channel| D::from_f32(channel.to_f32())),
+            alpha: D::from_f32(self.alpha.to_f32()),
+        }
     }
 }
 
@@ -275,7 +277,9 @@ mod tests {
             assert_eq!(u8::over([0, 0, 0, front], [back; 4])[..3], [exact.round() as u8; 3]);
             assert_eq!(front.mix(back, 0, 0), (f64::from(front) * f64::from(back) / 255.0).round() as u8);
         }
-        for (front, back) in (0..=255_u16).flat_map(|front| (0..=255_u16).map(move |back| (front * 257, back * 256 + 77))) {
+        for (front, back) in
+            (0..=255_u16).flat_map(|front| (0..=255_u16).map(move |back| (front * 257, back * 256 + 77)))
+        {
             let exact = f64::from(back) * f64::from(65535 - front) / 65535.0;
             assert_eq!(u16::over([0, 0, 0, front], [back; 4]), {
                 let [r, g, b] = [exact.round() as u16; 3];

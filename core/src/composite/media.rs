@@ -229,7 +229,8 @@ impl Medium for Smoke<'_> {
 
     fn extent(&self, ray: &Ray) -> [f32; 2] {
         let [a, b] = [self.low, self.low + self.size].map(|corner| (corner - ray.origin) / ray.direction);
-        let inside = (ray.origin.cmpge(self.low) & ray.origin.cmple(self.low + self.size)) | ray.direction.cmpne(Vec3::ZERO);
+        let inside =
+            (ray.origin.cmpge(self.low) & ray.origin.cmple(self.low + self.size)) | ray.direction.cmpne(Vec3::ZERO);
         if !inside.all() {
             return [f32::INFINITY, f32::NEG_INFINITY];
         }

@@ -122,7 +122,8 @@ mod tests {
     fn packed_ones_agree() {
         for k in 0..10_000_u32 {
             let bytes = (k.wrapping_mul(2_654_435_761) ^ (k << 7)).to_le_bytes();
-            let [a, b] = [[bytes[0], 9, bytes[1], bytes[2]], [bytes[1], bytes[3], 200, bytes[0]]].map(PremultipliedRgba::new);
+            let [a, b] =
+                [[bytes[0], 9, bytes[1], bytes[2]], [bytes[1], bytes[3], 200, bytes[0]]].map(PremultipliedRgba::new);
             for operator in PorterDuff::ALL {
                 let packed = operator.compose(a, b);
                 let exact = operator.compose(a.stored_as::<f32>(), b.stored_as()).stored_as::<u8>();

@@ -92,7 +92,9 @@ mod tests {
         let (low, high) = (Vec3::new(-1.0, 2.0, -7.0), Vec3::new(3.0, 2.5, -3.0));
         let forward = Vec3::new(0.48, -0.6, -0.64);
         for eye in [Vec3::ZERO, Vec3::new(1.0, 2.2, -5.0), Vec3::new(9.0, -3.0, -9.0)] {
-            for depth in [ViewDepth::Planar { eye, forward }, ViewDepth::Radial { eye }, ViewDepth::Axis { axis: forward }] {
+            for depth in
+                [ViewDepth::Planar { eye, forward }, ViewDepth::Radial { eye }, ViewDepth::Axis { axis: forward }]
+            {
                 let (mut nearest, mut farthest) = (f32::NEG_INFINITY, f32::INFINITY);
                 for k in 0..21 * 21 * 21 {
                     let share = Vec3::new((k % 21) as f32, (k / 21 % 21) as f32, (k / 441) as f32) / 20.0;

@@ -58,7 +58,8 @@ mod tests {
 
     #[test]
     fn floats_have_a_total_order() {
-        let depths = [f32::NEG_INFINITY, -1e30, -2.0, -1.0, -1e-40, 0.0, f32::MIN_POSITIVE, 0.5, 1.0, f32::MAX, f32::INFINITY];
+        let depths =
+            [f32::NEG_INFINITY, -1e30, -2.0, -1.0, -1e-40, 0.0, f32::MIN_POSITIVE, 0.5, 1.0, f32::MAX, f32::INFINITY];
         for pair in depths.windows(2) {
             assert!(DrawKey::new(3, -4, pair[0]) < DrawKey::new(3, -4, pair[1]), "{pair:?}");
         }
