@@ -2,10 +2,39 @@
 //!
 //! All sort the same entries of 16 bytes. radsort gets the depth alone, as Bevy gives it.
 
-use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+mod rounds;
+
 use radiosity::composite::{Draw, DrawKey, resort, sort};
+use rounds::best;
 
 const COUNTS: [u32; 4] = [1_000, 10_000, 100_000, 1_000_000];
+
+fn main() {
+    let names = ["sort", "in place", "resort", "calm", "radsort", "std", "unstable"];
+    println!("ns for each entry  {}", names.map(|name| format!("{name:>9}")).concat());
+    for (kind, make) in [("random", random as fn(u32) -> Vec<Draw>), ("coherent", coherent)] {
+        for count in COUNTS {
+            let draws = make(count);
+            let mut scratch = draws.clone();
+            let mut other = draws.clone();
+            let mut another = draws.clone();
+            let seconds = best(
+                || draws.clone(),
+                [
+                    &mut |draws: &mut Vec<Draw>| sort(draws, &mut scratch),
+                    &mut |draws: &mut Vec<Draw>| sort(draws, &mut []),
+                    &mut |draws: &mut Vec<Draw>| resort(draws, &mut other, 0.0),
+                    &mut |draws: &mut Vec<Draw>| resort(draws, &mut another, 1e-4),
+                    &mut |draws: &mut Vec<Draw>| radsort::sort_by_key(draws, |draw| draw.key.depth()),
+                    &mut |draws: &mut Vec<Draw>| draws.sort_by_key(|draw| draw.key),
+                    &mut |draws: &mut Vec<Draw>| draws.sort_unstable_by_key(|draw| draw.key),
+                ],
+            );
+            let each = seconds.map(|seconds| format!("{:9.1}", seconds * 1e9 / f64::from(count)));
+            println!("{kind:>9} {count:8}  {}", each.concat());
+        }
+    }
+}
 
 /// A number in `[0, 1)`.
 fn chance(k: u32) -> f32 {
@@ -19,7 +48,7 @@ fn random(count: u32) -> Vec<Draw> {
     (0..count).map(|k| Draw { key: DrawKey::new(0, 0, -0.1 - 100.0 * chance(k)), rank: k, index: k }).collect()
 }
 
-/// In the order of the frame before; since then each has moved by as much as a few places.
+/// In the order of the frame before; since then each has moved by as much as its neighbors are away in the mean.
 fn coherent(count: u32) -> Vec<Draw> {
     let mut draws = random(count);
     sort(&mut draws, &mut []);
@@ -29,35 +58,3 @@ fn coherent(count: u32) -> Vec<Draw> {
     }
     draws
 }
-
-/// A way of sorting.
-type Way = (&'static str, fn(&mut [Draw], &mut [Draw]));
-
-const WAYS: [Way; 7] = [
-    ("sort", sort),
-    ("sort in place", |draws, _| sort(draws, &mut [])),
-    ("resort", |draws, scratch| resort(draws, scratch, 0.0)),
-    ("resort, calm", |draws, scratch| resort(draws, scratch, 1e-4)),
-    ("radsort by depth", |draws, _| radsort::sort_by_key(draws, |draw| draw.key.depth())),
-    ("std, stable", |draws, _| draws.sort_by_key(|draw| draw.key)),
-    ("std, unstable", |draws, _| draws.sort_unstable_by_key(|draw| draw.key)),
-];
-
-fn all(criterion: &mut Criterion) {
-    for (name, make) in [("random", random as fn(u32) -> Vec<Draw>), ("coherent", coherent)] {
-        for count in COUNTS {
-            let mut group = criterion.benchmark_group(format!("{name} {count}"));
-            group.throughput(Throughput::Elements(count.into()));
-            let draws = make(count);
-            let mut scratch = draws.clone();
-            for (way, sort) in WAYS {
-                group.bench_function(BenchmarkId::from_parameter(way), |bencher| {
-                    bencher.iter_batched_ref(|| draws.clone(), |draws| sort(draws, &mut scratch), BatchSize::LargeInput);
-                });
-            }
-        }
-    }
-}
-
-criterion_group!(benches, all);
-criterion_main!(benches);

@@ -143,7 +143,7 @@ mod tests {
         [a, b, c].map(|[x, y]| Vec4::new(x, y, z, 1.0))
     }
 
-    fn shown<P: Pixel>(samples: Samples, triangles: &[([Vec4; 3], PremultipliedRgba)]) -> [PremultipliedRgba; 256] {
+    fn shown(samples: Samples, triangles: &[([Vec4; 3], PremultipliedRgba)]) -> [PremultipliedRgba; 256] {
         let mut pixels = [const { Layers::<4>::EMPTY }; 1024];
         let count = 256 * samples.places().len();
         let mut picture = Framebuffer::new(SIZE, samples, &mut pixels[..count]).unwrap();
@@ -158,7 +158,7 @@ mod tests {
     fn edges_are_smooth() {
         let white = StraightRgba::opaque([1.0; 3]).premultiplied();
         let half = triangle([[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0]], 0.5);
-        let shown = shown::<Layers<4>>(Samples::Four, &[(half, white)]);
+        let shown = shown(Samples::Four, &[(half, white)]);
         for (k, color) in shown.iter().enumerate() {
             let expected = match (k % 16).cmp(&(k / 16)) {
                 core::cmp::Ordering::Less => 1.0,
@@ -177,7 +177,7 @@ mod tests {
         let edge = [[-1.0, -1.0], [-0.7, 1.0], [-1.0, 1.0]];
         let triangles = [halves[0], halves[1], edge].map(|corners| (triangle(corners, 0.3), gray));
         for samples in [Samples::One, Samples::Four] {
-            assert_eq!(shown::<Layers<4>>(samples, &triangles), [gray; 256]);
+            assert_eq!(shown(samples, &triangles), [gray; 256]);
         }
     }
 

@@ -204,10 +204,9 @@ impl Medium for Smoke<'_> {
         let most = self.cells() - Vec3::ONE;
         let mut sum = 0.0;
         // Every plane between cells is crossed at most once.
-        for _ in 0..self.counts.iter().sum::<usize>() {
-            if !(at < end) {
-                break;
-            }
+        let mut crossings = self.counts.iter().sum::<usize>();
+        while at < end && crossings > 0 {
+            crossings -= 1;
             // A little ahead, the cell that is entered; on its far side its planes are left.
             let ahead = origin + step * at + step.signum() * 1e-4;
             let cell = ahead.floor().clamp(Vec3::ZERO, most);

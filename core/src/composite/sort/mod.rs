@@ -13,7 +13,7 @@ pub use key::*;
 use radix::radix_sort;
 
 /// So many comparisons and moves per entry may the order of the frame before cost; then it was not worth keeping.
-const PATIENCE: usize = 8;
+const PATIENCE: usize = 4;
 
 /// Of the entries whose depths are all but equal so many are looked at to find the one that was first before.
 const WINDOW: usize = 32;
