@@ -1,6 +1,8 @@
 //! Orders of drawing: from scratch and from the frame before, beside radsort and the standard library.
 //!
 //! All sort the same entries of 16 bytes. radsort gets the depth alone, as Bevy gives it.
+//!
+//! `cargo bench --manifest-path core/benches/composite_rivals/Cargo.toml --bench sort`
 
 mod rounds;
 

@@ -2,6 +2,8 @@
 //!
 //! Each pass reads a front and reads and writes a back. The stream does the same with as many bytes and nothing to compute
 //! but a sum: what memory allows. The small picture fits into the nearest caches, the large one into none.
+//!
+//! `cargo bench --manifest-path core/benches/composite_rivals/Cargo.toml --bench spans`
 
 mod rounds;
 

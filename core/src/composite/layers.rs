@@ -8,9 +8,9 @@ use super::{Layer, Pixel, PremultipliedRgba, front_to_back};
 ///
 /// Each new layer is put where it belongs. An opaque one cuts off what lies behind it. One too many makes the two that are
 /// nearest in depth one, which then spans the depths between them. So the pixel is exact, whatever the order of arrival,
-/// as long as no more than `K` layers stand in front of the nearest opaque one, that one included; and beyond that as long
-/// as no layer arrives between two that were merged. [`Layers::error`] bounds what such latecomers can do. Layers at the
-/// same depth stay in the order of arrival, the first in front.
+/// for up to `K` layers, not counting those that an opaque one hides already when they come; and beyond that as long as
+/// none arrives between two that were merged. [`Layers::error`] bounds what such latecomers can do. Layers at the same
+/// depth stay in the order of arrival, the first in front.
 ///
 /// The idea of a bounded list per pixel is that of Bavoil et al., "Multi-Fragment Effects on the GPU using the k-Buffer",
 /// 2007; merging instead of dropping, that of Salvi and Vaidyanathan, "Multi-layer Alpha Blending", 2014.

@@ -1,4 +1,4 @@
-//! The order in which transparent things are drawn: keys, and sorting them in place.
+//! The order in which transparent things are drawn: keys, and sorting by them.
 //!
 //! [`ViewDepth`] measures how near a thing is, [`DrawKey`] puts layer, priority and depth into one number, [`sort`] orders
 //! from scratch and [`resort`] from the order of the frame before. All of it happens in the caller's slices.
@@ -49,12 +49,13 @@ pub fn sort(draws: &mut [Draw], scratch: &mut [Draw]) {
     renumber(draws);
 }
 
-/// Sorts things that stand in the order of the frame before, with new keys: in linear time where few have changed
-/// places, as [`sort`] otherwise.
+/// Sorts things that stand in the order of the frame before, ranks and all, with new keys: in linear time where few have
+/// changed places, as [`sort`] otherwise.
 ///
 /// Things whose depths differ by no more than `tolerance` keep the order that they had, unless a third one forces them
 /// apart; so that things at the same depth do not flicker when rounding, or a camera that trembles, favors now one and now
-/// the other. All others are in true order, without exception. New things are appended, with the rank `u32::MAX`.
+/// the other. All others are in true order, without exception. New things are appended, with the rank `u32::MAX`; others may be
+/// left out.
 pub fn resort(draws: &mut [Draw], scratch: &mut [Draw], tolerance: f32) {
     if !insertion_sort(draws, PATIENCE * draws.len()) {
         radix_sort(draws, scratch);
