@@ -9,14 +9,14 @@ use glam::Vec3A;
 use super::assemble::{Assembly, Repairs};
 use super::coarse::Coarse;
 use super::emitters::Lamp;
-use super::estimate::{Estimate, Foreseen};
+use super::estimate::{Estimate, Foreseen, light_of};
 use super::parts::Parts;
 use super::pieces::Pieces;
 use super::rays::RayBudget;
 use super::summary::{Done, Tally};
 use super::{BakeSettings, Baker, DirectLights, Keep, Log, Seeds};
 use crate::geometry::Occluders;
-use crate::lightmap::{DirectError, LightmapImage, Nodes, Seams, filter, seam_texels, split_seams};
+use crate::lightmap::{DirectError, LightmapImage, Nodes, Seams, filter, seam_texels, split_seams, without_torn};
 use crate::math;
 use crate::progress::{Cancelled, Stage};
 use crate::transport::{Codes, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
@@ -135,7 +135,9 @@ impl Course<'_> {
             if number == 0 {
                 progress.enter(Stage::Finish);
             }
-            let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect, &foreseen);
+            let light = light_of(&direct, &indirect);
+            let is_valid = &without_torn(texels, is_valid, &light, tracer, workers, progress)?[..];
+            let estimate = Estimate::new(texels, is_valid, &light, (&direct, &direct_errors), &indirect, &foreseen);
             let assembly = Assembly { texels, is_valid, patches, workers, progress };
             let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
             let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;

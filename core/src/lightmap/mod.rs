@@ -23,6 +23,7 @@ mod samples;
 mod seam;
 mod texel;
 mod tile;
+mod torn;
 #[cfg(feature = "unwrap")]
 mod unwrap;
 #[cfg(not(feature = "unwrap"))]
@@ -42,4 +43,5 @@ pub use patch_map::*;
 pub use patches::*;
 pub use seam::*;
 pub use texel::*;
+pub use torn::*;
 pub use validity::*;
