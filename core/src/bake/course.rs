@@ -16,7 +16,9 @@ use super::rays::RayBudget;
 use super::summary::{Done, Tally};
 use super::{BakeSettings, Baker, DirectLights, Keep, Log, Seeds};
 use crate::geometry::Occluders;
-use crate::lightmap::{DirectError, LightmapImage, Nodes, Seams, filter, seam_texels, split_seams, without_torn};
+use crate::lightmap::{
+    DirectError, LightmapImage, Nodes, Seams, Smooth, filter, seam_texels, split_seams, without_torn,
+};
 use crate::math;
 use crate::progress::{Cancelled, Stage};
 use crate::transport::{Codes, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
@@ -118,12 +120,17 @@ impl Course<'_> {
             let Pieces { texels, patches, workers, progress, .. } = pieces;
             let (mut surfaces, direct) = self.recalled(of_part, &pieces)?;
             let DirectLights { sums: direct, errors: direct_errors, kept } = direct;
+            let known = if self.settings.target_error > 0.0 {
+                known_error(&pieces, is_valid, &surfaces, (&direct, &direct_errors), solution, &foreseen)?
+            } else {
+                0.0
+            };
             let radiance = surfaces.radiance(self.lighting, &direct, solution, workers, progress)?;
             tally.lowered += surfaces.count_lowered(self.lighting);
             if self.settings.keep == Keep::Lightmaps {
                 surfaces.forget_materials();
             }
-            let mut nodes = self.baker(&pieces, &surfaces, is_valid, number).gather(&direct, &radiance)?;
+            let mut nodes = self.baker(&pieces, &surfaces, is_valid, number).gather(&direct, &radiance, known)?;
             drop(radiance);
             let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
             tally.nodes += nodes.gathered.iter().filter(|node| node.rays > 0).count();
@@ -188,6 +195,22 @@ impl Course<'_> {
         let seeds = Seeds(settings.seed).of_part(number);
         Baker { pieces, surfaces, is_valid, budget, keep: settings.keep, seeds }
     }
+}
+
+/// What the error will be without noise of indirect light, where texels receive what the patches around them do.
+fn known_error<O: Occluders>(
+    pieces: &Pieces<'_, O>,
+    is_valid: &[bool],
+    surfaces: &Surfaces,
+    direct: (&[Vec3A], &[DirectError]),
+    solution: &Solution,
+    foreseen: &Foreseen,
+) -> Result<f32, Cancelled> {
+    let Pieces { texels, workers, progress, .. } = *pieces;
+    let received = |texel| Smooth { irradiance: surfaces.around.mean(texel, &solution.received).into(), variance: 0.0 };
+    let indirect: Vec<Smooth> = workers.map(is_valid.len(), 4096, progress, |range| range.map(received).collect())?;
+    let light = light_of(direct.0, &indirect);
+    Ok(Estimate::new(texels, is_valid, &light, direct, &indirect, foreseen).rms)
 }
 
 impl Lit {

@@ -219,8 +219,8 @@ impl<O: Occluders> Baker<'_, O> {
         Ok(light)
     }
 
-    /// What the nodes gather of the radiance of all columns.
-    fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A]) -> Result<Nodes, Cancelled> {
+    /// What the nodes gather of the radiance of all columns, where so much of the error is `known`.
+    fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A], known: f32) -> Result<Nodes, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
         let field = Field::new(self.pieces, self.surfaces, self.budget.spread());
         let gather = Gather {
@@ -230,7 +230,7 @@ impl<O: Occluders> Baker<'_, O> {
             column: |hit: Option<&_>| field.column(hit),
             radiance,
             keep: self.keep,
-            settings: self.budget.gather,
+            settings: self.budget.gather_beside(known),
             seed: self.seeds.of(4),
         };
         let direct: Vec<f32> = direct.iter().map(|direct| direct.element_sum() / 3.0).collect();
