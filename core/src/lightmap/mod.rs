@@ -32,6 +32,7 @@ mod unwrap;
 mod validity;
 
 pub use blend::*;
+pub use blocks::Blocks;
 pub use dilate::*;
 pub use direct::*;
 pub use filter::*;
