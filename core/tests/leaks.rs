@@ -287,23 +287,23 @@ fn closed_house_in_the_sun() {
 /// nearer to the crossing than to the walls.
 #[test]
 fn crossing_of_thin_walls() {
-    let (half, side) = (0.005, 2.0);
-    for [x, z] in [[1.0, 1.0], [1.07, 1.12], [0.9, 1.14], [1.13, 1.13], [0.88, 0.87], [1.12, 0.88]] {
-        let mut scene = room([0.0; 3], [side, 1.0, side], grey(0.7, 0.0));
-        add_box(&mut scene, "wall along z", [x - half, -0.1, -0.1], [x + half, 1.1, side + 0.1], 0, false);
-        add_box(&mut scene, "wall along x", [-0.1, -0.1, z - half], [side + 0.1, 1.1, z + half], 0, false);
-        for [lamp_x, lamp_z, candela] in [[0.5, 0.5, 100.0], [1.5, 0.5, 40.0], [0.5, 1.5, 30.0]] {
-            let source = point([lamp_x, 0.7, lamp_z], candela);
+    let (half, density) = (0.005, 8.0);
+    for [x, z] in [[4.0, 2.0], [4.06, 2.03], [3.93, 2.11], [4.02, 1.98]] {
+        let mut scene = room([0.0; 3], [LENGTH, HEIGHT, WIDTH], grey(0.7, 0.0));
+        add_box(&mut scene, "wall along z", [x - half, -0.1, -0.1], [x + half, HEIGHT + 0.1, WIDTH + 0.1], 0, false);
+        add_box(&mut scene, "wall along x", [-0.1, -0.1, z - half], [LENGTH + 0.1, HEIGHT + 0.1, z + half], 0, false);
+        for [lamp_x, lamp_z, candela] in [[2.0, 1.0, 100.0], [6.0, 1.0, 40.0], [2.0, 3.0, 30.0]] {
+            let source = point([lamp_x, 1.5, lamp_z], candela);
             scene.lights.push(Light { name: "lamp".into(), source });
         }
-        let bake = baked(&scene, &settings(4.0, Quality::Draft));
+        let bake = baked(&scene, &settings(density, Quality::Draft));
         for kernel in KERNELS {
             let dark = |at: Vec3, margin: f32| {
-                let is_level = at.y == 0.0 || at.y == 1.0;
+                let is_level = at.y == 0.0 || at.y == HEIGHT;
                 is_level && at.x > x + half + margin && at.z > z + half + margin
             };
-            let bright = |at: Vec3| at.x < x - 0.3 && at.z < z - 0.3;
-            let (leak, place, name) = leak(&scene, &bake, kernel, |_| true, dark, bright);
+            let (leak, place, name) =
+                leak(&scene, &bake, kernel, |_| true, dark, |at| at.x < x - 0.5 && at.z < z - 0.5);
             println!("crossing at {x}, {z} {kernel:?}: {leak:.6} at {place} of {name}");
             assert!(leak < LARGEST_LEAK, "{leak}");
         }
