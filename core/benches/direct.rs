@@ -9,7 +9,7 @@ use std::time::Instant;
 use glam::{Affine3A, Vec2, Vec3};
 use radiosity::geometry::{Mesh, Occluders, tree};
 use radiosity::light::{DirectLight, Lamps, LightSource, PointLight};
-use radiosity::lightmap::{Direct, DirectTexel, LayoutSettings, Resolution, ShadowRays, Texels, check, layout};
+use radiosity::lightmap::{Blocks, Direct, DirectTexel, LayoutSettings, Resolution, ShadowRays, Texels, check, layout};
 use radiosity::material::Material;
 use radiosity::parallel::Workers;
 use radiosity::progress::Progress;
@@ -35,7 +35,14 @@ fn main() {
     for count in [1, 10, 100, 1_000, 10_000] {
         let lights: Vec<DirectLight> = lights(count).iter().map(DirectLight::from).collect();
         let lamps = Lamps::new(lights.iter().map(|light| (light, Vec3::ONE)).collect());
-        let direct = Direct { texels: &texels, is_valid: &is_valid, tracer: &tracer, rays: RAYS, seed: 1 };
+        let direct = Direct {
+            texels: &texels,
+            blocks: &Blocks::new(&texels),
+            is_valid: &is_valid,
+            tracer: &tracer,
+            rays: RAYS,
+            seed: 1,
+        };
         tracer.take_count();
         let start = Instant::now();
         let light = direct.light(&lamps, &workers, &progress).expect("nobody cancels");

@@ -11,7 +11,9 @@ use radiosity::bake::Quality;
 use radiosity::form_factor::point_to_polygon;
 use radiosity::geometry::tree;
 use radiosity::light::{DirectLight, Lamps, LightSource, PointLight, RectLight};
-use radiosity::lightmap::{Direct, DirectTexel, LayoutSettings, Resolution, ShadowRays, Texel, Texels, check, layout};
+use radiosity::lightmap::{
+    Blocks, Direct, DirectTexel, LayoutSettings, Resolution, ShadowRays, Texel, Texels, check, layout,
+};
 use radiosity::material::{Filter, Material, Texels as PictureTexels, Texture, TextureRef, UvSet, Wrap};
 use radiosity::parallel::Workers;
 use radiosity::progress::Progress;
@@ -29,7 +31,8 @@ fn lit(scene: &Scene, density: f32, rays: ShadowRays, lights: &[LightSource]) ->
     let is_valid = check(&mut texels, &tracer, &workers, 1, &progress).unwrap();
     let lights: Vec<DirectLight> = lights.iter().map(DirectLight::from).collect();
     let lamps = Lamps::new(lights.iter().map(|light| (light, Vec3::ONE)).collect());
-    let direct = Direct { texels: &texels, is_valid: &is_valid, tracer: &tracer, rays, seed: 3 };
+    let direct =
+        Direct { texels: &texels, blocks: &Blocks::new(&texels), is_valid: &is_valid, tracer: &tracer, rays, seed: 3 };
     let light = direct.light(&lamps, &workers, &progress).unwrap();
     let one_by_one = |texel: &Texel| {
         let flat = world.normals[texel.triangle as usize];

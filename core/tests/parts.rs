@@ -152,3 +152,25 @@ fn a_transport_is_not_made_in_parts() {
     let refused = bake(&scene, &settings, &Progress::default());
     assert!(matches!(refused, Err(BakeError::OutOfMemory { .. })), "{refused:?}");
 }
+
+/// A seam is either made to agree or counted as lying between two parts: together they are all seams of the bake.
+#[test]
+fn seams_between_parts_are_counted() {
+    let mut scene = Scene { materials: vec![grey(0.7, 0.0)], sky: Vec3::splat(100.0), ..Default::default() };
+    for [column, row] in (0..5).flat_map(|row| (0..5).map(move |column| [column as f32, row as f32])) {
+        let (low, high) = ([1.7 * column, 1.7 * row], [1.7 * (column + 1.0), 1.7 * (row + 1.0)]);
+        let corners = [[low[0], 0.0, low[1]], [low[0], 0.0, high[1]], [high[0], 0.0, high[1]], [high[0], 0.0, low[1]]];
+        add_quad(&mut scene, "tile", corners, 0);
+    }
+    let one = baked(&scene, &small_images(u64::MAX));
+    let many = baked(&scene, &in_parts(&scene));
+    let counts = |bake: &Bake| {
+        let warning = bake.report.warnings.iter().find(|warning| warning.contains("different parts, where their two"));
+        let counts = warning.map(|text| text.split(' ').filter_map(|word| word.parse().ok()).collect::<Vec<usize>>());
+        (bake.report.parts, counts)
+    };
+    assert_eq!(counts(&one), (1, None));
+    let all = one.report.seams.pairs;
+    assert!(many.report.parts > 1 && many.report.seams.pairs < all, "{:?} of {all}", many.report.seams);
+    assert_eq!(counts(&many).1, Some(vec![all - many.report.seams.pairs, all]));
+}

@@ -9,14 +9,16 @@ use glam::Vec3A;
 use super::assemble::{Assembly, Gatherers, Repairs};
 use super::coarse::Coarse;
 use super::emitters::Lamp;
-use super::estimate::{Estimate, Foreseen};
+use super::estimate::{Estimate, Foreseen, light_of};
 use super::parts::Parts;
 use super::pieces::Pieces;
 use super::rays::RayBudget;
 use super::summary::{Done, Tally};
 use super::{BakeSettings, Baker, DirectLights, Keep, Log, Seeds};
 use crate::geometry::Occluders;
-use crate::lightmap::{DirectError, LightmapImage, Nodes, Seams, filter, seam_texels, split_seams};
+use crate::lightmap::{
+    DirectError, LightmapImage, Nodes, Seams, Smooth, filter, seam_texels, split_seams, without_torn,
+};
 use crate::math;
 use crate::progress::{Cancelled, Stage};
 use crate::transport::{Codes, Contact, Contacts, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
@@ -120,10 +122,14 @@ impl Course<'_> {
             let Pieces { texels, patches, workers, progress, .. } = pieces;
             let (surfaces, direct) = self.recalled(of_part, &pieces)?;
             let DirectLights { sums: direct, errors: direct_errors, kept } = direct;
+            let known = match self.settings.target_error {
+                0.0 => 0.0,
+                _ => known_error(&pieces, is_valid, &surfaces, (&direct, &direct_errors), solution, &foreseen)?,
+            };
             let radiance = surfaces.radiance(self.lighting, &direct, solution, workers, progress)?;
             tally.lowered += surfaces.count_lowered(self.lighting);
             let baker = self.baker(&pieces, &surfaces, is_valid, number);
-            let nodes = baker.gather(&direct, &radiance, self.room)?;
+            let nodes = baker.gather(&direct, &radiance, (known, self.room))?;
             tally.row_bytes = tally.row_bytes.max(nodes.bytes);
             let gatherers = self.touch(nodes, &baker, &solution.received, radiance)?;
             let indirect = filter(&gatherers.gathered, texels, is_valid, workers, progress)?;
@@ -133,22 +139,22 @@ impl Course<'_> {
             if number == 0 {
                 progress.enter(Stage::Finish);
             }
-            let estimate = Estimate::new(texels, is_valid, (&direct, &direct_errors), &indirect, &foreseen);
+            let light = light_of(&direct, &indirect);
+            let is_valid = &without_torn(texels, is_valid, &light, tracer, workers, progress)?[..];
+            let estimate = Estimate::new(texels, is_valid, &light, (&direct, &direct_errors), &indirect, &foreseen);
             let assembly = Assembly { texels, is_valid, patches, workers, progress };
             let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
             let seams = Seams::new(texels, is_valid, &estimate.errors, tracer, workers, progress)?;
             let seam_report = seams.solve(&mut images, estimate.whole, workers, progress)?;
             let done = Done { world: tracer.world, texels, is_valid, surfaces: &surfaces, solution };
-            let done = done.tally(&estimate, &indirect);
             let seam_texels = seam_texels(&seams, &images, estimate.whole, texels.here.start);
-            tally.add(&Tally { seams: seam_report, seam_texels, ..done });
+            tally.add(&Tally { seams: seam_report, seam_texels, ..done.tally(&estimate, &indirect) });
             for (index, image) in texels.here.clone().zip(images) {
                 take(index, image)?;
             }
             if self.settings.keep == Keep::Transport {
-                let (rows, scene) = (mem::take(&mut rows), tracer.world.scene);
-                let repairs = Repairs { fills, seams };
-                transport = Some(assembly.transport(surfaces, kept, rows, gatherers, repairs, scene)?);
+                let (rows, repairs) = (mem::take(&mut rows), Repairs { fills, seams });
+                transport = Some(assembly.transport(surfaces, kept, rows, gatherers, repairs, tracer.world.scene)?);
             }
         }
         tally.split_seams = split_seams(&parts.images, &parts.texels, parts.tracer, parts.workers, parts.progress)?;
@@ -207,6 +213,22 @@ impl Course<'_> {
         let seeds = Seeds(settings.seed).of_part(number);
         Baker { pieces, surfaces, is_valid, budget, keep: settings.keep, seeds }
     }
+}
+
+/// What the error will be without noise of indirect light, where texels receive what the patches around them do.
+fn known_error<O: Occluders>(
+    pieces: &Pieces<'_, O>,
+    is_valid: &[bool],
+    surfaces: &Surfaces,
+    direct: (&[Vec3A], &[DirectError]),
+    solution: &Solution,
+    foreseen: &Foreseen,
+) -> Result<f32, Cancelled> {
+    let Pieces { texels, workers, progress, .. } = *pieces;
+    let received = |texel| Smooth { irradiance: surfaces.around.mean(texel, &solution.received).into(), variance: 0.0 };
+    let indirect: Vec<Smooth> = workers.map(is_valid.len(), 4096, progress, |range| range.map(received).collect())?;
+    let light = light_of(direct.0, &indirect);
+    Ok(Estimate::new(texels, is_valid, &light, direct, &indirect, foreseen).rms)
 }
 
 impl Lit {

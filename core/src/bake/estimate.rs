@@ -30,17 +30,16 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// From both parts of the light of each texel, the direct one with its errors. What the texels of other parts will
-    /// have is `foreseen`.
+    /// From the light of each texel and both of its parts, the direct one with its errors. What the texels of other
+    /// parts will have is `foreseen`.
     pub fn new(
         texels: &Texels,
         is_valid: &[bool],
+        light: &[f32],
         (direct, direct_errors): (&[Vec3A], &[DirectError]),
         indirect: &[Smooth],
         foreseen: &Foreseen,
     ) -> Self {
-        let total = |(direct, indirect): (&Vec3A, &Smooth)| Vec3::from(*direct) + indirect.irradiance;
-        let light: Vec<f32> = direct.iter().zip(indirect).map(|pair| total(pair).element_sum() / 3.0).collect();
         let valid = || (0..light.len()).filter(|&index| is_valid[index]);
         let count = valid().count().max(1) as f64;
         let mean = (valid().map(|index| f64::from(light[index])).sum::<f64>() / count) as f32;
@@ -53,7 +52,7 @@ impl Estimate {
         let error =
             |index: usize| if is_valid[index] { math::sqrt(variance(index)) / (light[index] + floor) } else { 0.0 };
         let errors: Vec<f32> = (0..light.len()).map(error).collect();
-        let between = Between { texels, is_valid, light: &light };
+        let between = Between { texels, is_valid, light };
         let missed = |index: usize| {
             let scale = light[index] + floor;
             let lit = f64::from(between.squared_error(index) / (scale * scale));
@@ -65,6 +64,12 @@ impl Estimate {
         let rms = math::sqrt((noise + missed) as f32 + ROUNDING * ROUNDING);
         Self { mean, whole, errors, noise: math::sqrt(noise as f32), rms }
     }
+}
+
+/// Direct and indirect light of each texel together, mean over the channels.
+pub(super) fn light_of(direct: &[Vec3A], indirect: &[Smooth]) -> Vec<f32> {
+    let total = |(direct, indirect): (&Vec3A, &Smooth)| Vec3::from(*direct) + indirect.irradiance;
+    direct.iter().zip(indirect).map(|pair| total(pair).element_sum() / 3.0).collect()
 }
 
 /// The light of the texels of all parts before they gather: what comes straight from the lamps, and what their patches

@@ -30,7 +30,8 @@ use glam::{Vec3, Vec3A};
 use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
 use crate::light::Lamps;
 use crate::lightmap::{
-    Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, SeamTexel, layout,
+    Blocks, Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, SeamTexel,
+    layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -190,14 +191,15 @@ impl<O: Occluders> Baker<'_, O> {
     /// What is kept is linear in the lamps by its nature, and so is the time that it takes.
     fn direct(&self, lamps: &[Lamp], lighting: &Lighting) -> Result<DirectLights, Cancelled> {
         let mut lights = DirectLights::new(self.surfaces.receivers(), self.is_valid.len());
+        let blocks = &Blocks::new(self.pieces.texels);
         match self.keep {
             Keep::Lightmaps => {
                 let strong = lamps.iter().map(|lamp| (&lamp.light, lighting.strength(lamp.origin)));
-                lights.add(&self.light(&Lamps::new(strong.collect()), 0)?, Vec3::ONE);
+                lights.add(&self.light(&Lamps::new(strong.collect()), 0, blocks)?, Vec3::ONE);
             }
             Keep::Transport => {
                 for (index, lamp) in lamps.iter().enumerate() {
-                    let light = self.light(&Lamps::new(vec![(&lamp.light, Vec3::ONE)]), index)?;
+                    let light = self.light(&Lamps::new(vec![(&lamp.light, Vec3::ONE)]), index, blocks)?;
                     lights.add(&light, lighting.strength(lamp.origin));
                     let light: Vec<Vec3> = light.iter().map(|light| light.irradiance).collect();
                     lights.kept.extend(LampLight::new(lamp.origin, &light));
@@ -208,10 +210,10 @@ impl<O: Occluders> Baker<'_, O> {
     }
 
     /// Light of each receiver from all of these lamps, of which the first has this index.
-    fn light(&self, lamps: &Lamps, first: usize) -> Result<Vec<DirectTexel>, Cancelled> {
+    fn light(&self, lamps: &Lamps, first: usize, blocks: &Blocks) -> Result<Vec<DirectTexel>, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
         let seed = hash(self.seeds.of(2), first as u32);
-        let direct = Direct { texels, is_valid: self.is_valid, tracer, rays: self.budget.shadow, seed };
+        let direct = Direct { texels, blocks, is_valid: self.is_valid, tracer, rays: self.budget.shadow, seed };
         let mut light = direct.light(lamps, workers, progress)?;
         let bare = &self.surfaces.bare;
         let on = |&patch: &u32| DirectTexel { irradiance: self.pieces.direct_on(patch, lamps), ..Default::default() };
@@ -219,8 +221,9 @@ impl<O: Occluders> Baker<'_, O> {
         Ok(light)
     }
 
-    /// What the nodes gather of the radiance of all columns.
-    fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A], room: usize) -> Result<Nodes, Cancelled> {
+    /// What the nodes gather of the radiance of all columns, where so much of the error is `known` and rows may take so many
+    /// bytes.
+    fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A], (known, room): (f32, usize)) -> Result<Nodes, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
         let field = Field::new(self.pieces, self.surfaces, self.budget.spread());
         let gather = Gather {
@@ -232,7 +235,7 @@ impl<O: Occluders> Baker<'_, O> {
             touches: &|texel, distance| self.pieces.touches(texel, distance),
             keep: self.keep,
             room,
-            settings: self.budget.gather,
+            settings: self.budget.gather_beside(known),
             seed: self.seeds.of(4),
         };
         let direct: Vec<f32> = direct.iter().map(|direct| direct.element_sum() / 3.0).collect();

@@ -7,6 +7,9 @@ use crate::math;
 /// What a texel may get at most where an error is to be reached.
 const MOST_RAYS: u32 = 8192;
 
+/// The share of the square of a wanted error that is spent: an estimate is not the error itself.
+const LEFT_OF_ERROR: f32 = 0.8;
+
 /// Rays for each purpose. Counts are powers of two, as Sobol points like them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RayBudget {
@@ -39,8 +42,8 @@ impl RayBudget {
         Self { gather, ..budget }
     }
 
-    /// What is spent until the error is no larger: a quarter of its square may be noise of indirect light, as much noise of
-    /// direct light, and the rest lie between texels. What no rays mend is as fine as a quality of that error has it.
+    /// What is spent until the error is no larger: a quarter of its square may be noise of direct light. What no rays mend
+    /// is as fine as a quality of that error has it.
     fn until(self, error: f32) -> Self {
         let fit = Self::from(match error {
             ..0.008 => Quality::High,
@@ -48,11 +51,11 @@ impl RayBudget {
             _ => Quality::Draft,
         });
         let gather = GatherSettings {
+            rays: Self::from(Quality::Draft).gather.rays,
             most_rays: MOST_RAYS,
             spacing: self.gather.spacing.min(fit.gather.spacing),
             contrast: self.gather.contrast.min(fit.gather.contrast),
-            enough: Enough::Rms(0.5 * error),
-            ..self.gather
+            enough: Enough::Rms(error),
         };
         let shadow = ShadowRays {
             first: self.shadow.first.max(fit.shadow.first),
@@ -62,6 +65,19 @@ impl RayBudget {
         };
         let (row, patches, cone) = (self.row.max(fit.row), self.patches.max(fit.patches), self.cone.max(fit.cone));
         Self { row, patches, shadow, gather, cone, ..self }
+    }
+
+    /// How to gather where an error is wanted of which direct light and what lies between texels make up so much already:
+    /// the rest may be noise of indirect light, and at least a quarter of the square.
+    pub fn gather_beside(&self, known: f32) -> GatherSettings {
+        let enough = match self.gather.enough {
+            Enough::Rms(error) => {
+                let wanted = error * error;
+                Enough::Rms(math::sqrt((LEFT_OF_ERROR * wanted - known * known).max(0.25 * wanted)))
+            }
+            other => other,
+        };
+        GatherSettings { enough, ..self.gather }
     }
 
     /// Width of the cone that one gathered ray stands for, at a distance of one meter: `2 / sqrt(cone)`.

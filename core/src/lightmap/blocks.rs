@@ -6,16 +6,18 @@ use alloc::vec::Vec;
 use super::{BLOCK, Texel, Texels};
 
 /// The covered texels of all images, by blocks and charts.
-pub(super) struct Blocks {
+#[derive(Clone, Debug)]
+pub struct Blocks {
     /// The texels, block by block.
     order: Vec<u32>,
     /// Where in that order each block begins, and the end of the last one.
     starts: Vec<u32>,
     /// For each texel its block.
-    pub of_texel: Vec<u32>,
+    pub(super) of_texel: Vec<u32>,
 }
 
 impl Blocks {
+    /// Puts the texels of each block and chart together.
     pub fn new(texels: &Texels) -> Self {
         let mut order: Vec<u32> = (0..texels.list.len() as u32).collect();
         let key = |index: &u32| {
@@ -35,17 +37,17 @@ impl Blocks {
         blocks
     }
 
-    pub fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// The texels of a block, ascending.
-    pub fn texels(&self, block: usize) -> &[u32] {
+    pub(super) fn texels(&self, block: usize) -> &[u32] {
         &self.order[self.starts[block] as usize..self.starts[block + 1] as usize]
     }
 
     /// What is listed block by block in the order of the texels.
-    pub fn scatter<T: Copy + Default>(&self, listed: &[T]) -> Vec<T> {
+    pub(super) fn scatter<T: Copy + Default>(&self, listed: &[T]) -> Vec<T> {
         let mut scattered = vec![T::default(); listed.len()];
         self.order.iter().zip(listed).for_each(|(&index, value)| scattered[index as usize] = *value);
         scattered

@@ -84,6 +84,8 @@ impl core::ops::AddAssign for DirectError {
 pub struct Direct<'a, O> {
     /// The receivers.
     pub texels: &'a Texels,
+    /// The same, block by block.
+    pub blocks: &'a Blocks,
     /// Which texels count.
     pub is_valid: &'a [bool],
     /// Asks for visibility.
@@ -124,7 +126,7 @@ impl<O: Occluders> Direct<'_, O> {
     ///
     /// Where the progress was told to cancel.
     pub fn light(&self, lamps: &Lamps, workers: &Workers, progress: &Progress) -> Result<Vec<DirectTexel>, Cancelled> {
-        let blocks = Blocks::new(self.texels);
+        let blocks = self.blocks;
         let count = blocks.count();
         progress.enter_part(0, 2);
         let looks = workers.map(count, 8, progress, |range| {
@@ -134,7 +136,7 @@ impl<O: Occluders> Direct<'_, O> {
         let mean = looks.iter().flat_map(|look| &look.levels).sum::<f32>() / valid.max(1) as f32;
         progress.enter_part(1, 2);
         let lights = workers.map(count, 8, progress, |range| {
-            range.flat_map(|block| self.second_look(lamps, &blocks, &looks, block, mean)).collect()
+            range.flat_map(|block| self.second_look(lamps, &looks, block, mean)).collect()
         })?;
         Ok(blocks.scatter(&lights))
     }
@@ -190,18 +192,11 @@ impl<O: Occluders> Direct<'_, O> {
     }
 
     /// The light of a block of texels, with more rays where the first were not enough.
-    fn second_look(
-        &self,
-        lamps: &Lamps,
-        blocks: &Blocks,
-        looks: &[BlockLook],
-        block: usize,
-        mean: f32,
-    ) -> Vec<DirectTexel> {
-        let (texels, own) = (blocks.texels(block), &looks[block]);
+    fn second_look(&self, lamps: &Lamps, looks: &[BlockLook], block: usize, mean: f32) -> Vec<DirectTexel> {
+        let (texels, own) = (self.blocks.texels(block), &looks[block]);
         let tolerated = |k: usize| self.rays.noise * (own.levels[k] + 0.1 * mean);
         let mut sums: Vec<DirectTexel> = texels.iter().map(|_| DirectTexel::default()).collect();
-        let neighbors: Vec<_> = texels.iter().map(|&index| self.neighbors(blocks, index)).collect();
+        let neighbors: Vec<_> = texels.iter().map(|&index| self.neighbors(index)).collect();
         for (slot, &lamp) in own.cut.lamps.iter().enumerate() {
             let look_of = |other: u32| looks[other as usize].of(lamp);
             for (k, &index) in texels.iter().enumerate() {
@@ -346,14 +341,14 @@ impl<O: Occluders> Direct<'_, O> {
     }
 
     /// The valid texels of the same chart among the eight around a texel, each by its block and its bit.
-    fn neighbors(&self, blocks: &Blocks, index: u32) -> [Option<(u32, u64)>; 8] {
+    fn neighbors(&self, index: u32) -> [Option<(u32, u64)>; 8] {
         let Texel { pixel: [x, y], image, chart, .. } = self.texels.list[index as usize];
         core::array::from_fn(|k| {
             let k = if k < 4 { k } else { k + 1 } as i32;
             let other = self.texels.at_pixel(u32::from(image), i32::from(x) + k % 3 - 1, i32::from(y) + k / 3 - 1)?;
             let texel = &self.texels.list[other as usize];
             let counts = texel.chart == chart && self.is_valid[other as usize];
-            counts.then(|| (blocks.of_texel[other as usize], bit(texel)))
+            counts.then(|| (self.blocks.of_texel[other as usize], bit(texel)))
         })
     }
 }

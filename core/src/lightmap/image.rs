@@ -68,7 +68,7 @@ pub enum TexelState {
     Gutter,
     /// Its own light was computed.
     Valid,
-    /// It lies inside geometry and was filled from its neighbors.
+    /// It lies inside geometry, or reaches through a wall into darkness, and was filled from its neighbors.
     Invalid,
 }
 

@@ -23,6 +23,7 @@ mod samples;
 mod seam;
 mod texel;
 mod tile;
+mod torn;
 #[cfg(feature = "unwrap")]
 mod unwrap;
 #[cfg(not(feature = "unwrap"))]
@@ -31,6 +32,7 @@ mod unwrap;
 mod validity;
 
 pub use blend::*;
+pub use blocks::Blocks;
 pub use dilate::*;
 pub use direct::*;
 pub use filter::*;
@@ -42,4 +44,5 @@ pub use patch_map::*;
 pub use patches::*;
 pub use seam::*;
 pub use texel::*;
+pub use torn::*;
 pub use validity::*;
