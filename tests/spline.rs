@@ -4,11 +4,12 @@ use std::f32::consts::{FRAC_1_SQRT_2, PI};
 use std::time::Duration;
 
 use bevy::mesh::VertexAttributeValues;
+use bevy::pbr::Lightmap;
 use bevy::prelude::*;
 use bevy::render::sync_world::SyncWorldPlugin;
 use bevy::time::TimeUpdateStrategy;
 use bevy_radiosity::RadiosityPlugins;
-use bevy_radiosity::bake::{apply_bake, collect_unlit};
+use bevy_radiosity::bake::{apply_bake, collect_unlit, remove_bake};
 use bevy_radiosity::prelude::*;
 use bevy_radiosity::spline::{LightOnCurve, ShapeError};
 use radiosity::bake::Quality as CoreQuality;
@@ -164,7 +165,18 @@ fn surfaces_are_baked_without_unwrapping() {
     apply_bake(app.world_mut(), &collected, bake, &BakeSettings::default());
     app.update();
     assert_eq!(mesh_id(&app, entity), own, "no copy of the mesh for other coordinates");
-    assert!(app.world().get::<bevy::pbr::Lightmap>(entity).is_some());
+    assert!(app.world().get::<Lightmap>(entity).is_some());
+
+    // Edited after the bake, it shows its light until the next one, and the bake can be taken off.
+    *app.world_mut().get_mut::<SplineSurface>(entity).unwrap() =
+        SplineSurface::Extrusion { curve: arc(), along: 2.0 * Vec3::Z };
+    app.update();
+    let edited = mesh_id(&app, entity);
+    assert!(edited != own && app.world().get::<Lightmap>(entity).is_some());
+    assert_eq!(collect_unlit(app.world_mut()).scene.curved.len(), 1, "the next bake sees the new surface");
+    remove_bake(app.world_mut());
+    app.update();
+    assert!(mesh_id(&app, entity) == edited && app.world().get::<Lightmap>(entity).is_none());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Meshes of curved surfaces: texels have the true normals, however few triangles there are.
 
+#[expect(dead_code, reason = "each test uses a part of the helpers")]
 mod common;
 
 use common::*;

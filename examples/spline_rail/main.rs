@@ -95,7 +95,7 @@ fn spawn_bay_between(commands: &mut Commands, bay: Entity, paints: &Paints, numb
     }
 }
 
-/// Lamps on a wavy curve below the crown, and the rail that carries them.
+/// A rail on a wavy curve below the crown, and lamps below it.
 fn spawn_lamps(commands: &mut Commands, root: Entity, paints: &Paints) {
     let length = 2.0 * HALF * (BAYS - 1) as f32;
     let wave = |k: usize| {
@@ -103,17 +103,11 @@ fn spawn_lamps(commands: &mut Commands, root: Entity, paints: &Paints) {
         Vec3::new(0.5 * (9.0 * share).sin(), 2.75 + 0.08 * (7.0 * share).cos(), -0.8 + (length + 1.6) * share)
     };
     let curve = SplineCurve::open(3, (0..=8).map(wave).collect());
-    let light = PointLight { color: Color::linear_rgb(1.0, 0.82, 0.6), intensity: 350.0, radius: 0.02, ..default() };
-    commands.spawn((
-        Name::new("rail"),
-        curve,
-        SplineSweep::Tube { radius: 0.012 },
-        MeshMaterial3d(paints.clay.clone()),
-        LightsAlong { count: 9, light: LightAlong::Point(light) },
-        // The lamps hang below it.
-        Transform::from_xyz(0.0, 0.0, 0.0),
-        ChildOf(root),
-    ));
+    let rail = SplineSweep::Tube { radius: 0.012 };
+    commands.spawn((Name::new("rail"), curve.clone(), rail, MeshMaterial3d(paints.clay.clone()), ChildOf(root)));
+    let light = PointLight { color: Color::linear_rgb(1.0, 0.82, 0.6), intensity: 900.0, radius: 0.02, ..default() };
+    let lamps = LightsAlong { count: 9, light: LightAlong::Point(light) };
+    commands.spawn((Name::new("lamp"), curve, lamps, Transform::from_xyz(0.0, -0.08, 0.0), ChildOf(root)));
 }
 
 fn spawn_camera(commands: &mut Commands) {
@@ -133,7 +127,7 @@ fn spawn_camera(commands: &mut Commands) {
         Camera3d::default(),
         TravelAlong::new(way, SPEED),
         Projection::from(PerspectiveProjection { fov: 1.1, near: 0.01, ..default() }),
-        Exposure { ev100: 5.3 },
+        Exposure { ev100: 5.8 },
         Hdr,
         Tonemapping::KhronosPbrNeutral,
         Msaa::Off,

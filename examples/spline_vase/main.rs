@@ -19,20 +19,33 @@ use radiosity::render::Camera as PathCamera;
 use crate::model::{Paints, spawn_bay, spawn_plinth, vase};
 
 const HELP: &str = "\
-spline_vase [--texels-per-meter N] [--screenshot FILE.png | --scene FILE.glb]
+spline_vase [OPTIONS]
 
   drag a control point: the vase follows    B: bake    G: control points, knots    Escape: end
-  --screenshot: without a window, bakes, writes a picture, and ends; --scene writes what `bake` bakes";
 
-const EYE: Vec3 = Vec3::new(0.75, 1.45, 3.6);
-const TARGET: Vec3 = Vec3::new(-0.15, 1.4, 0.0);
-const FOV: f32 = 0.95;
+  --texels-per-meter N      density of the lightmaps, 48 by default
+  --quality draft|medium    how many rays, draft by default
+  --gizmos                  shows control points and knots from the start
+  --screenshot FILE.png     without a window: bakes, writes a picture, and ends
+  --scene FILE.glb          without a window: writes the scene for `bake`, and ends";
+
+const EYE: Vec3 = Vec3::new(0.5, 1.35, 3.3);
+const TARGET: Vec3 = Vec3::new(-0.12, 1.62, 0.0);
+const FOV: f32 = 1.02;
 
 /// What was said.
 struct Args {
     density: f32,
-    screenshot: Option<PathBuf>,
-    scene: Option<PathBuf>,
+    quality: Quality,
+    gizmos: Vec<SplineGizmo>,
+    show: Show,
+}
+
+/// Where the scene goes.
+enum Show {
+    Window,
+    Picture(PathBuf),
+    Scene(PathBuf),
 }
 
 fn main() -> AppExit {
@@ -41,21 +54,24 @@ fn main() -> AppExit {
         return AppExit::from_code(2);
     };
     let mut app = App::new();
-    if let Some(picture) = args.screenshot.or(args.scene.clone()) {
-        app.add_plugins(windowless::without_window(DefaultPlugins.build()));
-        app.add_plugins(screenshot::plugin(picture));
-    } else {
-        println!("{HELP}");
-        app.add_plugins((DefaultPlugins, edit::plugin));
-    }
-    if let Some(path) = args.scene {
-        app.add_observer(move |started: On<BakeStarted>, mut exit: MessageWriter<AppExit>| {
-            exit.write(write_scene(&started, &path));
-        });
+    match args.show {
+        Show::Window => {
+            println!("{HELP}");
+            app.add_plugins((DefaultPlugins, edit::plugin));
+        }
+        Show::Picture(path) => {
+            app.add_plugins((windowless::without_window(DefaultPlugins.build()), screenshot::plugin(path)));
+        }
+        Show::Scene(path) => {
+            let write = move |started: On<BakeStarted>, mut exit: MessageWriter<AppExit>| {
+                exit.write(write_scene(&started, &path));
+            };
+            app.add_plugins(windowless::without_window(DefaultPlugins.build())).add_observer(write);
+        }
     }
     app.add_plugins(RadiosityPlugins)
         .insert_resource(BakeSettings {
-            quality: Quality::Draft,
+            quality: args.quality,
             resolution: Resolution::TexelsPerMeter(args.density),
             // Every mesh is a chart by nature: that one had to be unwrapped would be an error.
             uv: UvMode::Keep,
@@ -63,39 +79,56 @@ fn main() -> AppExit {
         })
         .insert_resource(GlobalAmbientLight::NONE)
         .insert_resource(ClearColor(Color::BLACK))
+        .insert_resource(Marks(args.gizmos))
         .add_systems(Startup, spawn)
         .add_observer(tell)
         .add_observer(fail)
         .run()
 }
 
+/// What is drawn over the vase.
+#[derive(Resource)]
+struct Marks(Vec<SplineGizmo>);
+
 fn read(mut words: impl Iterator<Item = String>) -> Option<Args> {
-    let mut args = Args { density: 48.0, screenshot: None, scene: None };
+    let mut args = Args { density: 48.0, quality: Quality::Draft, gizmos: Vec::new(), show: Show::Window };
     while let Some(word) = words.next() {
-        let value = words.next()?;
+        let mut value = || words.next();
         match word.as_str() {
-            "--texels-per-meter" => args.density = value.parse().ok().filter(|&n: &f32| n > 0.0 && n.is_finite())?,
-            "--screenshot" => args.screenshot = Some(value.into()),
-            "--scene" => args.scene = Some(value.into()),
+            "--texels-per-meter" => args.density = value()?.parse().ok().filter(|&n: &f32| n > 0.0 && n.is_finite())?,
+            "--quality" => {
+                args.quality = match value()?.as_str() {
+                    "draft" => Quality::Draft,
+                    "medium" => Quality::Medium,
+                    _ => return None,
+                }
+            }
+            "--gizmos" => args.gizmos = vec![SplineGizmo { size: 0.02, ..default() }],
+            "--screenshot" => args.show = Show::Picture(value()?.into()),
+            "--scene" => args.show = Show::Scene(value()?.into()),
             _ => return None,
         }
     }
     Some(args)
 }
 
-fn spawn(mut commands: Commands, mut materials: ResMut<Assets<StandardMaterial>>) {
+fn spawn(mut commands: Commands, mut materials: ResMut<Assets<StandardMaterial>>, marks: Res<Marks>) {
     let paints = Paints::new(&mut materials);
     let root = commands.spawn((BakeOnLoad, Transform::default(), Visibility::default())).id();
     spawn_bay(&mut commands, root, &paints);
     spawn_plinth(&mut commands, root, &paints, Vec3::ZERO);
-    commands.spawn((
+    let mut vase = commands.spawn((
         Name::new("vase"),
         SplineSurface::revolution(vase()),
-        SplineTolerance { chord: 0.001, angle: 0.15 },
+        SplineTolerance { chord: 0.0005, angle: 0.1 },
+        Baked { density: 3.0 },
         MeshMaterial3d(paints.clay.clone()),
         Transform::from_xyz(0.0, 0.6, 0.0),
         ChildOf(root),
     ));
+    for mark in &marks.0 {
+        vase.insert(*mark);
+    }
     let lamp = PointLight { color: Color::linear_rgb(1.0, 0.8, 0.55), intensity: 900.0, radius: 0.0, ..default() };
     commands.spawn((Name::new("lamp"), lamp, Transform::from_xyz(-0.55, 2.1, 0.55), ChildOf(root)));
     let sun = DirectionalLight { illuminance: 900.0, ..default() };
@@ -105,7 +138,7 @@ fn spawn(mut commands: Commands, mut materials: ResMut<Assets<StandardMaterial>>
         Camera3d::default(),
         Projection::from(PerspectiveProjection { fov: FOV, near: 0.01, ..default() }),
         Transform::from_translation(EYE).looking_at(TARGET, Vec3::Y),
-        Exposure { ev100: 6.6 },
+        Exposure { ev100: 7.3 },
         Hdr,
         Tonemapping::KhronosPbrNeutral,
         Msaa::Off,

@@ -31,7 +31,7 @@ impl Paints {
                 ..default()
             })
         };
-        Self { stone: paint([0.72, 0.68, 0.6]), plaster: paint([0.75, 0.3, 0.2]), clay: paint([0.15, 0.35, 0.65]) }
+        Self { stone: paint([0.72, 0.68, 0.6]), plaster: paint([0.74, 0.52, 0.4]), clay: paint([0.15, 0.35, 0.65]) }
     }
 }
 

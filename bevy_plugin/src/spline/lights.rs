@@ -32,12 +32,13 @@ pub enum LightAlong {
 #[reflect(Component)]
 pub struct LightOnCurve(pub usize);
 
+type Curve<'w> = (Entity, Ref<'w, LightsAlong>, &'w SplinePath, Option<&'w Children>);
 type ChangedLights = Or<(Changed<LightsAlong>, Changed<SplinePath>)>;
 
 /// As many lights as there shall be, where they shall be.
 pub(super) fn update_lights(
     mut commands: Commands,
-    curves: Query<(Entity, Ref<LightsAlong>, &SplinePath, Option<&Children>), ChangedLights>,
+    curves: Query<Curve<'static>, ChangedLights>,
     mut lights: Query<(&LightOnCurve, &mut Transform)>,
 ) {
     for (curve, along, path, children) in &curves {
