@@ -127,7 +127,7 @@ fn spawn_camera(commands: &mut Commands) {
         Camera3d::default(),
         TravelAlong::new(way, SPEED),
         Projection::from(PerspectiveProjection { fov: 1.1, near: 0.01, ..default() }),
-        Exposure { ev100: 5.8 },
+        Exposure { ev100: 6.3 },
         Hdr,
         Tonemapping::KhronosPbrNeutral,
         Msaa::Off,
@@ -135,7 +135,7 @@ fn spawn_camera(commands: &mut Commands) {
 }
 
 fn stand_still(mut travel: Single<&mut TravelAlong>) {
-    (travel.speed, travel.distance) = (0.0, 0.6);
+    (travel.speed, travel.distance) = (0.0, 7.4);
 }
 
 fn end(keys: Res<ButtonInput<KeyCode>>, mut exit: MessageWriter<AppExit>) {

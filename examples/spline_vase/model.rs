@@ -1,6 +1,6 @@
 //! A bay of a groin vault, and what stands in it: exact surfaces, each a chart of its own.
 
-use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
+use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
 use bevy::prelude::*;
 use bevy_radiosity::prelude::*;
@@ -65,6 +65,7 @@ pub fn spawn_plinth(commands: &mut Commands, root: Entity, paints: &Paints, foot
     commands.spawn((
         Name::new("plinth"),
         SplineSurface::revolution(profile),
+        Baked { density: 2.0 },
         MeshMaterial3d(paints.stone.clone()),
         Transform::from_translation(foot),
         ChildOf(root),
@@ -114,18 +115,15 @@ fn quarter(sign: f32, x: impl Fn(f32) -> f32) -> SplineCurve {
 pub fn spawn_wall(commands: &mut Commands, root: Entity, paints: &Paints, turn: f32) {
     let rectangle = [[-HALF, 0.0], [HALF, 0.0], [-HALF, SPRINGING], [HALF, SPRINGING]];
     let rectangle = ControlNet::bezier(2, rectangle.map(|[x, y]| Vec3::new(x, y, -HALF)).to_vec());
-    // The arch over the line below it, in two halves.
-    let half = |sign: f32| {
-        let at = |points: [[f32; 2]; 3]| {
-            let points = points.map(|[x, up]| Vec3::new(sign * x, SPRINGING + up, -HALF));
-            SplineCurve::bezier(points.to_vec()).with_weights(vec![1.0, FRAC_1_SQRT_2, 1.0])
-        };
-        let arch = at([[HALF, 0.0], [HALF, HALF], [0.0, HALF]]);
-        let line = at([[HALF, 0.0], [HALF, 0.0], [0.0, 0.0]]);
-        let (first, last) = if sign > 0.0 { (arch, line) } else { (line, arch) };
-        SplineSurface::Ruled { first, last }
+    // Half a disc: a line that turns about its end.
+    let line = [HALF, 0.0].map(|x| Vec3::new(x, SPRINGING, -HALF));
+    let lunette = SplineSurface::Revolution {
+        profile: SplineCurve::bezier(line.to_vec()),
+        foot: line[1],
+        axis: Vec3::Z,
+        angle: PI,
     };
-    for (name, surface) in [("wall", rectangle.into()), ("left lunette", half(-1.0)), ("right lunette", half(1.0))] {
+    for (name, surface) in [("wall", rectangle.into()), ("lunette", lunette)] {
         commands.spawn((
             Name::new(format!("{name} at {turn:.1}")),
             surface,
