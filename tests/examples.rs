@@ -139,7 +139,7 @@ fn vase_and_vault_need_no_unwrap() {
     let report = std::fs::read(out.join("report.json")).expect("it is written");
     let report: serde_json::Value = serde_json::from_slice(&report).expect("it is JSON");
     assert_eq!(report["settings"]["uv"], "keep");
-    assert_eq!(report["surfaces"], 15);
+    assert_eq!(report["surfaces"], 17);
     assert_eq!(report["warnings"].as_array().map(Vec::len), Some(0), "{}", report["warnings"]);
     let [before, after] = ["step_before", "step_after"].map(|key| report["seams"][key].as_f64().expect("a number"));
     assert!(after < 0.01 && after < 0.2 * before, "{before} {after}");

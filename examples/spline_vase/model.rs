@@ -1,6 +1,6 @@
 //! A bay of a groin vault, and what stands in it: exact surfaces, each a chart of its own.
 
-use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
+use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use bevy::prelude::*;
 use bevy_radiosity::prelude::*;
@@ -115,15 +115,8 @@ fn quarter(sign: f32, x: impl Fn(f32) -> f32) -> SplineCurve {
 pub fn spawn_wall(commands: &mut Commands, root: Entity, paints: &Paints, turn: f32) {
     let rectangle = [[-HALF, 0.0], [HALF, 0.0], [-HALF, SPRINGING], [HALF, SPRINGING]];
     let rectangle = ControlNet::bezier(2, rectangle.map(|[x, y]| Vec3::new(x, y, -HALF)).to_vec());
-    // Half a disc: a line that turns about its end.
-    let line = [HALF, 0.0].map(|x| Vec3::new(x, SPRINGING, -HALF));
-    let lunette = SplineSurface::Revolution {
-        profile: SplineCurve::bezier(line.to_vec()),
-        foot: line[1],
-        axis: Vec3::Z,
-        angle: PI,
-    };
-    for (name, surface) in [("wall", rectangle.into()), ("lunette", lunette)] {
+    let [left, right] = [-1.0, 1.0].map(lunette);
+    for (name, surface) in [("wall", rectangle.into()), ("left lunette", left), ("right lunette", right)] {
         commands.spawn((
             Name::new(format!("{name} at {turn:.1}")),
             surface,
@@ -132,4 +125,20 @@ pub fn spawn_wall(commands: &mut Commands, root: Entity, paints: &Paints, turn: 
             ChildOf(root),
         ));
     }
+}
+
+/// A quarter of a disc below the arch of the back wall; the upright in the middle is two of its four edges, so that none
+/// is collapsed.
+fn lunette(sign: f32) -> SplineSurface {
+    let at = |x: f32, up: f32| Vec3::new(sign * x, SPRINGING + up, -HALF);
+    let line = |from: [f32; 2], to: [f32; 2]| SplineCurve::bezier([from, to].map(|[x, up]| at(x, up)).to_vec());
+    let arc = [[HALF, 0.0], [HALF, HALF], [0.0, HALF]].map(|[x, up]| at(x, up)).to_vec();
+    let arc = SplineCurve::bezier(arc).with_weights(vec![1.0, FRAC_1_SQRT_2, 1.0]);
+    let (foot, middle, crown, springing) = ([0.0; 2], [0.0, 0.5 * HALF], [0.0, HALF], [HALF, 0.0]);
+    let upright = line(foot, middle);
+    let edges = match sign > 0.0 {
+        true => vec![line(foot, springing), arc, line(middle, crown), upright],
+        false => vec![line(springing, foot), upright, line(crown, middle), arc],
+    };
+    SplineSurface::Coons { edges }
 }

@@ -102,8 +102,7 @@ fn subdivide(
     let turn = a.first.angle_between(b.first) + b.first.angle_between(c.first);
     let sag = b.point.distance(a.point.midpoint(c.point));
     // The first cut is for curves that come back to their direction.
-    let is_fine =
-        depth < DEEPEST && turn <= tolerance.angle && sag <= tolerance.chord.max(0.01 * a.point.distance(c.point));
+    let is_fine = depth < DEEPEST && turn <= tolerance.angle && sag <= tolerance.chord;
     if is_fine || depth == 0 {
         parameters.push(to);
         return;
@@ -128,7 +127,7 @@ fn band(half_width: f32) -> Section {
 }
 
 /// The section carried along the frames.
-fn along(section: &Section, stations: &[Station]) -> Tessellation<Vec3> {
+fn along(section: &[[Vec2; 2]], stations: &[Station]) -> Tessellation<Vec3> {
     let columns = section.len() as u32;
     let in_space = |frame: &Frame<Vec3>, v: Vec2| frame.normal * v.x + frame.binormal * v.y;
     let uv: Vec<[f32; 2]> = stations
@@ -136,12 +135,9 @@ fn along(section: &Section, stations: &[Station]) -> Tessellation<Vec3> {
         .flat_map(|station| (0..columns).map(|column| [column as f32 / (columns - 1) as f32, station.share]))
         .collect();
     let each = |of: fn(&Frame<Vec3>, Vec3, Vec3) -> Vec3| -> Vec<Vec3> {
-        let ring = |station: &Station| {
-            let frame = station.frame;
-            section
-                .clone()
-                .into_iter()
-                .map(move |[offset, normal]| of(&frame, in_space(&frame, offset), in_space(&frame, normal)))
+        let ring = |Station { frame, .. }: &Station| {
+            let frame = *frame;
+            section.iter().map(move |&[offset, normal]| of(&frame, in_space(&frame, offset), in_space(&frame, normal)))
         };
         stations.iter().flat_map(ring).collect()
     };
