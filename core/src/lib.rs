@@ -29,7 +29,7 @@
 //! | `material` | reflectance, exitance, alpha, textures |
 //! | [`geometry`] | triangles, rays, directions, Sobol points, the tree |
 //! | [`spline`] | Bezier, B-spline, NURBS and Hermite curves, conics; surfaces and their tessellation |
-//! | [`composite`] | triangles to pixels, with a depth buffer |
+//! | [`composite`] | transparent layers: over, pixels with depth, fog, triangles to pixels, the order of drawing |
 //! | [`form_factor`] | the share of the light of one surface that reaches another |
 //! | `light` | the irradiance that a lamp gives at a point |
 //! | [`solve`] | the radiosity equation `b = e + rho F b` |

@@ -5,11 +5,11 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use crate::lightmap::{Blend, LightmapImage, NONE, Nodes, Patches, Seams, Smooth, TexelState, Texels, dilate};
+use crate::lightmap::{Gathered, LightmapImage, NONE, Patches, Seams, Smooth, TexelState, Texels, blend, dilate};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
-use crate::transport::{Fills, LampLight, Lighting, Rows, StoredImage, Surfaces, Transport};
+use crate::transport::{Contact, Fills, LampLight, Lighting, Rows, StoredImage, Surfaces, Transport};
 
 /// What finished images are made of.
 pub(super) struct Assembly<'a> {
@@ -18,6 +18,15 @@ pub(super) struct Assembly<'a> {
     pub patches: &'a Patches,
     pub workers: &'a Workers,
     pub progress: &'a Progress,
+}
+
+/// What gathered light.
+pub(super) struct Gatherers {
+    /// For each texel.
+    pub gathered: Vec<Gathered>,
+    /// What nodes see.
+    pub rows: Rows,
+    pub contacts: Vec<Contact>,
 }
 
 /// What is done to finished images.
@@ -69,18 +78,19 @@ impl Assembly<'_> {
         surfaces: Surfaces,
         lamps: Vec<LampLight>,
         patches: Rows,
-        nodes: Nodes,
+        Gatherers { gathered, rows: nodes, contacts }: Gatherers,
         Repairs { fills, seams }: Repairs,
         scene: &Scene,
     ) -> Result<Transport, Cancelled> {
-        let blend = Blend::new(nodes, self.texels, self.is_valid, self.workers, self.progress)?;
+        let texels = blend(&gathered, self.texels, self.is_valid, self.workers, self.progress)?;
         let images = fills.into_iter().enumerate().map(|(index, fills)| self.stored(index, fills)).collect();
         Ok(Transport {
             surfaces,
             lamps,
             patches,
-            nodes: blend.nodes,
-            texels: blend.texels,
+            nodes,
+            contacts,
+            texels,
             images,
             seams,
             lighting: Lighting::from(scene),

@@ -6,7 +6,7 @@ use core::mem;
 
 use glam::Vec3A;
 
-use super::assemble::{Assembly, Repairs};
+use super::assemble::{Assembly, Gatherers, Repairs};
 use super::coarse::Coarse;
 use super::emitters::Lamp;
 use super::estimate::{Estimate, Foreseen};
@@ -19,7 +19,7 @@ use crate::geometry::Occluders;
 use crate::lightmap::{DirectError, LightmapImage, Nodes, Seams, filter, seam_texels, split_seams};
 use crate::math;
 use crate::progress::{Cancelled, Stage};
-use crate::transport::{Codes, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
+use crate::transport::{Codes, Contact, Contacts, Lighting, PatchLight, Row, Rows, Solution, Surfaces, Transport};
 
 /// What all passes have to know.
 pub(super) struct Course<'a> {
@@ -29,6 +29,8 @@ pub(super) struct Course<'a> {
     pub lighting: &'a Lighting,
     pub settings: &'a BakeSettings,
     pub budget: RayBudget,
+    /// What rows of nodes may take where only those of contacts are kept, in bytes.
+    pub room: usize,
 }
 
 /// The light of a part that comes straight from the lamps, until it is needed again.
@@ -116,20 +118,16 @@ impl Course<'_> {
             parts.turn_to(number)?;
             let (pieces, is_valid) = (parts.pieces(), &parts.is_valid[..]);
             let Pieces { texels, patches, workers, progress, .. } = pieces;
-            let (mut surfaces, direct) = self.recalled(of_part, &pieces)?;
+            let (surfaces, direct) = self.recalled(of_part, &pieces)?;
             let DirectLights { sums: direct, errors: direct_errors, kept } = direct;
             let radiance = surfaces.radiance(self.lighting, &direct, solution, workers, progress)?;
             tally.lowered += surfaces.count_lowered(self.lighting);
-            if self.settings.keep == Keep::Lightmaps {
-                surfaces.forget_materials();
-            }
-            let mut nodes = self.baker(&pieces, &surfaces, is_valid, number).gather(&direct, &radiance)?;
-            drop(radiance);
-            let indirect = filter(&nodes.gathered, texels, is_valid, workers, progress)?;
-            tally.nodes += nodes.gathered.iter().filter(|node| node.rays > 0).count();
-            if self.settings.keep == Keep::Lightmaps {
-                nodes = Nodes::default();
-            }
+            let baker = self.baker(&pieces, &surfaces, is_valid, number);
+            let nodes = baker.gather(&direct, &radiance, self.room)?;
+            tally.row_bytes = tally.row_bytes.max(nodes.bytes);
+            let gatherers = self.touch(nodes, &baker, &solution.received, radiance)?;
+            let indirect = filter(&gatherers.gathered, texels, is_valid, workers, progress)?;
+            tally.nodes += gatherers.gathered.iter().filter(|node| node.rays > 0).count();
 
             log.turn_to(Stage::Finish, tracer);
             if number == 0 {
@@ -149,11 +147,34 @@ impl Course<'_> {
             }
             if self.settings.keep == Keep::Transport {
                 let (rows, scene) = (mem::take(&mut rows), tracer.world.scene);
-                transport = Some(assembly.transport(surfaces, kept, rows, nodes, Repairs { fills, seams }, scene)?);
+                let repairs = Repairs { fills, seams };
+                transport = Some(assembly.transport(surfaces, kept, rows, gatherers, repairs, scene)?);
             }
         }
         tally.split_seams = split_seams(&parts.images, &parts.texels, parts.tracer, parts.workers, parts.progress)?;
         Ok((tally, transport))
+    }
+
+    /// Mends what nodes gathered of things that they touch.
+    fn touch<O: Occluders>(
+        &self,
+        nodes: Nodes,
+        baker: &Baker<'_, O>,
+        received: &[Vec3A],
+        mut radiance: Vec<Vec3A>,
+    ) -> Result<Gatherers, Cancelled> {
+        let Pieces { workers, progress, .. } = *baker.pieces;
+        let (mut gathered, seers, rows) = nodes.split();
+        let of = |seer: &Contact| gathered[seer.texel as usize];
+        let touches = |seer: &&Contact| baker.pieces.touches(seer.texel as usize, of(seer).distance);
+        let contacts: Vec<Contact> = seers.iter().filter(touches).copied().collect();
+        let mut light: Vec<Vec3A> = contacts.iter().map(|contact| of(contact).irradiance.into()).collect();
+        let exchange = Contacts { surfaces: baker.surfaces, list: &contacts, rows: &rows };
+        exchange.exchange(self.lighting, received, &mut radiance, &mut light, workers, progress)?;
+        for (&Contact { texel, .. }, &light) in contacts.iter().zip(&light) {
+            gathered[texel as usize].irradiance = light.into();
+        }
+        Ok(Gatherers { gathered, rows, contacts })
     }
 
     /// What the surfaces of a part do with light, and the direct light of its texels.

@@ -37,6 +37,10 @@ const KEPT_LAMP: u64 = 3;
 const KEPT_EMITTER: u64 = 3 * KEPT_LAMP;
 /// For each ray of a texel, while rows of transport are made one after the other.
 const KEPT_ENTRY: u64 = 6;
+/// For each row of contacts, while it stands alone.
+const ROW: u64 = 64;
+/// Rows are there twice while they are put after each other.
+pub(super) const COPIES_OF_ROWS: u64 = 2;
 /// Whatever the scene.
 const ALWAYS: u64 = 16 << 20;
 
@@ -48,6 +52,8 @@ pub(super) struct MemoryPlan {
     pub cell: u32,
     /// An upper estimate of what the bake needs beside the scene, in bytes.
     pub needed: u64,
+    /// What rows of contacts may take beside that, in bytes: what is left, and no more than all texels would take.
+    pub room: usize,
 }
 
 /// What becomes of finished images.
@@ -73,11 +79,11 @@ impl MemoryPlan {
         finished: Finished,
     ) -> Result<Self, BakeError> {
         let needs = Needs::new(scene, layout, budget, settings, finished);
-        let whole = Self { parts: iter::once(0..layout.images.len()).collect(), cell: BLOCK, needed: 0 };
+        let whole = Self { parts: iter::once(0..layout.images.len()).collect(), cell: BLOCK, needed: 0, room: 0 };
         let whole = Self { needed: needs.of(&whole), ..whole };
         let allowed = settings.memory_bytes;
         if whole.needed <= allowed {
-            return Ok(whole);
+            return Ok(needs.with_contacts(whole, allowed, settings.keep));
         }
         let plan = match settings.keep {
             Keep::Lightmaps => {
@@ -87,7 +93,10 @@ impl MemoryPlan {
             // It holds all texels at once.
             Keep::Transport => whole,
         };
-        if plan.needed > allowed { Err(BakeError::OutOfMemory { needed: plan.needed, allowed }) } else { Ok(plan) }
+        if plan.needed > allowed {
+            return Err(BakeError::OutOfMemory { needed: plan.needed, allowed });
+        }
+        Ok(needs.with_contacts(plan, allowed, settings.keep))
     }
 }
 
@@ -103,6 +112,8 @@ struct Needs {
     patch: u64,
     /// For each texel whose transport is kept.
     kept: u64,
+    /// For each texel that touches something.
+    contact: u64,
     finished: Finished,
 }
 
@@ -122,6 +133,7 @@ impl Needs {
                 Keep::Lightmaps => 0,
                 Keep::Transport => KEPT + u64::from(budget.kept) * KEPT_ENTRY + kept_light(scene),
             },
+            contact: ROW + u64::from(budget.gather.rays) * ENTRY,
             finished,
         }
     }
@@ -136,13 +148,29 @@ impl Needs {
                 _ => parts.push(image..image + 1),
             }
         }
-        let plan = MemoryPlan { parts, cell, needed: 0 };
+        let plan = MemoryPlan { parts, cell, needed: 0, room: 0 };
         MemoryPlan { needed: self.of(&plan), ..plan }
+    }
+
+    /// A plan with room for the rows of contacts, as much as is left. A transport has it already: it keeps all rows.
+    fn with_contacts(&self, plan: MemoryPlan, allowed: u64, keep: Keep) -> MemoryPlan {
+        match keep {
+            Keep::Lightmaps => {
+                let left = (allowed - plan.needed) / COPIES_OF_ROWS;
+                MemoryPlan { room: left.min(self.largest(&plan) * self.contact) as usize, ..plan }
+            }
+            Keep::Transport => MemoryPlan { room: usize::MAX, ..plan },
+        }
+    }
+
+    /// Texels of the largest part.
+    fn largest(&self, plan: &MemoryPlan) -> u64 {
+        plan.parts.iter().map(|part| self.texels(part.clone())).max().unwrap_or(0)
     }
 
     /// What a bake by a plan needs.
     fn of(&self, plan: &MemoryPlan) -> u64 {
-        let largest = plan.parts.iter().map(|part| self.texels(part.clone())).max().unwrap_or(0);
+        let largest = self.largest(plan);
         let texels = match plan.parts.len() {
             1 => largest * (TEXEL + self.kept),
             _ => largest * TEXEL_OF_PART + self.beside(),

@@ -112,8 +112,7 @@ fn run(
     take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
 ) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
-    let budget = RayBudget::new(settings);
-    let mut log = Log::new(progress);
+    let (budget, mut log) = (RayBudget::new(settings), Log::new(progress));
 
     log.enter(Stage::Unwrap);
     let workers = &Workers::new(settings.threads);
@@ -130,7 +129,8 @@ fn run(
     let cell = plan.cell as usize;
     let mut parts = Parts::new((plan.parts, plan.cell), tracer, &layout, budget.patches, row_seeds, workers, progress)?;
     let (lamps, is_light) = emitters::lamps(&world);
-    let course = Course { lamps: &lamps, is_light: &is_light, lighting: &Lighting::from(scene), settings, budget };
+    let (lighting, room) = (&Lighting::from(scene), plan.room);
+    let course = Course { lamps: &lamps, is_light: &is_light, lighting, settings, budget, room };
 
     log.enter_after(Stage::Direct, tracer);
     let (light, lit) = course.direct(&mut parts)?;
@@ -153,7 +153,7 @@ fn run(
         texels_per_meter: layout.texels_per_meter,
         threads: workers.threads(),
         seed: settings.seed,
-        estimated_memory_bytes: plan.needed,
+        estimated_memory_bytes: plan.needed + memory::COPIES_OF_ROWS * tally.row_bytes as u64,
         transport_bytes: transport.as_ref().map_or(0, |transport| transport.bytes().total() as u64),
         warnings: summary::warnings(&world, &layout, &tally, [parts.patches.list.len(), parts.len(), cell], settings),
         seams: tally.seams,
@@ -220,7 +220,7 @@ impl<O: Occluders> Baker<'_, O> {
     }
 
     /// What the nodes gather of the radiance of all columns.
-    fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A]) -> Result<Nodes, Cancelled> {
+    fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A], room: usize) -> Result<Nodes, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
         let field = Field::new(self.pieces, self.surfaces, self.budget.spread());
         let gather = Gather {
@@ -229,7 +229,9 @@ impl<O: Occluders> Baker<'_, O> {
             tracer,
             column: |hit: Option<&_>| field.column(hit),
             radiance,
+            touches: &|texel, distance| self.pieces.touches(texel, distance),
             keep: self.keep,
+            room,
             settings: self.budget.gather,
             seed: self.seeds.of(4),
         };

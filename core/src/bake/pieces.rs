@@ -19,6 +19,10 @@ use crate::transport::{Cells, Codes, Row, Rows, Surfaces, Tracer};
 /// Points of a patch from which direct light is looked for where it has no texels to average.
 const DIRECT_POINTS: u32 = 16;
 
+/// Things touch where they are nearer than so many sides of a patch. Corners of cells between which light is interpolated
+/// see nothing so near.
+const TOUCH: f32 = 1.0;
+
 /// Texels whose neighbors are found before they are put together.
 const BATCH: usize = 1 << 17;
 
@@ -35,6 +39,12 @@ pub(super) struct Pieces<'a, O> {
 }
 
 impl<O: Occluders> Pieces<'_, O> {
+    /// Whether a texel that sees things at this harmonic mean distance sees them nearer than patches can tell.
+    pub fn touches(&self, texel: usize, distance: f32) -> bool {
+        let patch = self.patches.of_texel[texel];
+        patch != NONE && distance < TOUCH * math::sqrt(self.patches.list[patch as usize].area)
+    }
+
     fn world(&self) -> &World<'_> {
         self.tracer.world
     }

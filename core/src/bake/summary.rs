@@ -32,6 +32,8 @@ pub(super) struct Tally {
     pub valid_texels: usize,
     pub invalid_texels: usize,
     pub nodes: usize,
+    /// The most that rows of nodes took in a part, in bytes.
+    pub row_bytes: usize,
     /// Patches that would reflect more than anything real does.
     pub lowered: usize,
     /// Surfaces of charts that lie inside geometry, one for each chart.

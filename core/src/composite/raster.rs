@@ -1,6 +1,7 @@
 //! Triangles to pixels, with a depth buffer: what a target without a GPU sees.
 
 use core::fmt;
+use core::ops::Range;
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use heapless::Vec;
@@ -39,10 +40,17 @@ pub struct Fragment {
 /// Clipping of Sutherland and Hodgman 1974; interpolation without any division at the corners, Olano and Greer,
 /// "Triangle Scan Conversion using 2D Homogeneous Coordinates", 1997.
 #[inline]
-pub fn rasterize(size: [u32; 2], corners: &[Vec4; 3], mut fragment: impl FnMut(Fragment)) {
+pub fn rasterize(size: [u32; 2], corners: &[Vec4; 3], fragment: impl FnMut(Fragment)) {
+    rasterize_rows(size, 0..size[1], corners, fragment);
+}
+
+/// The same for some rows of the picture alone.
+#[inline]
+pub fn rasterize_rows(size: [u32; 2], wanted: Range<u32>, corners: &[Vec4; 3], mut fragment: impl FnMut(Fragment)) {
     let Some(planes) = Planes::new(size, corners) else { return };
     let outline = snap(size, &clip(corners));
-    for row in rows(&outline) {
+    let covered = rows(&outline);
+    for row in covered.start.max(wanted.start.into())..covered.end.min(wanted.end.into()) {
         let (first, end) = span(&outline, row);
         let values = planes.row(row);
         for column in first..end {
@@ -67,9 +75,9 @@ pub enum RasterError {
         /// Width and height.
         size: [u32; 2],
     },
-    /// The buffer does not have one entry for each pixel.
+    /// The memory does not have one entry for each pixel, or for each sample of each pixel.
     Length {
-        /// Width times height.
+        /// Width times height, times samples.
         pixels: usize,
         /// What was given.
         length: usize,
@@ -83,13 +91,24 @@ impl fmt::Display for RasterError {
                 write!(f, "a picture of {width} x {height} pixels; at most 32768 a side, draw it in tiles")
             }
             Self::Length { pixels, length } => {
-                write!(f, "a depth buffer of {length} entries for {pixels} pixels; give it one for each")
+                write!(f, "memory of {length} entries for {pixels} pixels or samples; give it one for each")
             }
         }
     }
 }
 
 impl core::error::Error for RasterError {}
+
+impl RasterError {
+    /// Whether memory of so many entries fits a picture with so many for each pixel.
+    pub(super) fn check(size: [u32; 2], samples: usize, length: usize) -> Result<(), Self> {
+        if size.iter().any(|&side| side > LONGEST) {
+            return Err(Self::TooLarge { size });
+        }
+        let pixels = size[0] as usize * size[1] as usize * samples;
+        if length == pixels { Ok(()) } else { Err(Self::Length { pixels, length }) }
+    }
+}
 
 impl<'a> DepthBuffer<'a> {
     /// A buffer on the memory of the caller, one entry for each pixel, row by row. It keeps the depths that stand there:
@@ -99,13 +118,7 @@ impl<'a> DepthBuffer<'a> {
     ///
     /// Where `depths` is not as long as `size` tells, or a side exceeds 32768.
     pub fn new(size: [u32; 2], depths: &'a mut [f32]) -> Result<Self, RasterError> {
-        if size.iter().any(|&side| side > LONGEST) {
-            return Err(RasterError::TooLarge { size });
-        }
-        let pixels = size[0] as usize * size[1] as usize;
-        if depths.len() != pixels {
-            return Err(RasterError::Length { pixels, length: depths.len() });
-        }
+        RasterError::check(size, 1, depths.len())?;
         Ok(Self { size, depths })
     }
 
@@ -177,7 +190,7 @@ fn snap(size: [u32; 2], outline: &Outline<Vec4>) -> Outline<[i64; 2]> {
 }
 
 /// The rows whose centers lie between the highest and the lowest corner.
-fn rows(outline: &Outline<[i64; 2]>) -> core::ops::Range<i64> {
+fn rows(outline: &Outline<[i64; 2]>) -> Range<i64> {
     let low = outline.iter().map(|corner| corner[1]).min().unwrap_or(0);
     let high = outline.iter().map(|corner| corner[1]).max().unwrap_or(0);
     first_center(low, 1)..first_center(high, 1)
@@ -319,7 +332,7 @@ mod tests {
             rasterize(SIZE, &[a, b, c], |fragment| counts[fragment.pixel] += 1);
             rasterize(SIZE, &[a, c, d], |fragment| counts[fragment.pixel] += 1);
         }
-        let rows = |range: core::ops::Range<usize>| &counts[range.start * 96..range.end * 96];
+        let rows = |range: Range<usize>| &counts[range.start * 96..range.end * 96];
         assert!(rows(0..32).iter().all(|&count| count == 0));
         assert!(rows(33..64).iter().all(|&count| count == 1));
     }

@@ -32,3 +32,5 @@ pub use ray::*;
 pub use ray_log::*;
 pub use sobol::*;
 pub use triangle::*;
+#[cfg(feature = "bvh")]
+pub(crate) use wide::{Lanes, Level, Task};

@@ -2,38 +2,25 @@
 
 use alloc::vec::Vec;
 
-use super::{Gathered, NONE, Nodes, Texels, stencil};
+use super::{Gathered, NONE, Texels, stencil};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::transport::{Row, Rows};
 
-/// For each texel that gathered light, or got it interpolated, the nodes it is mixed from; for each node, in the order
-/// of the texels, what it sees.
-pub struct Blend {
-    /// A row for each texel; its columns are nodes.
-    pub texels: Rows,
-    /// A row for each node.
-    pub nodes: Rows,
-}
-
-impl Blend {
-    /// From nodes that kept what they see. Mixing by these rows is what [`super::filter`] does, to 1/255 of the weights.
-    pub fn new(
-        nodes: Nodes,
-        texels: &Texels,
-        is_valid: &[bool],
-        workers: &Workers,
-        progress: &Progress,
-    ) -> Result<Self, Cancelled> {
-        let numbers = numbers(&nodes.gathered);
-        let blending = Blending { gathered: &nodes.gathered, numbers: &numbers, texels, is_valid };
-        let of_texels: Vec<Row> =
-            workers.map(numbers.len(), 1024, progress, |range| range.map(|texel| blending.row(texel)).collect())?;
-        let mut of_nodes = nodes.rows;
-        let mut numbers = numbers.iter();
-        of_nodes.retain(|_| numbers.next().is_some_and(|&number| number != NONE));
-        Ok(Self { texels: of_texels.into(), nodes: of_nodes.into() })
-    }
+/// For each texel that gathered light, or got it interpolated, the nodes it is mixed from: those with rays, numbered in
+/// the order of the texels. Mixing by these rows is what [`super::filter`] does, to 1/255 of the weights.
+pub fn blend(
+    gathered: &[Gathered],
+    texels: &Texels,
+    is_valid: &[bool],
+    workers: &Workers,
+    progress: &Progress,
+) -> Result<Rows, Cancelled> {
+    let numbers = numbers(gathered);
+    let blending = Blending { gathered, numbers: &numbers, texels, is_valid };
+    let rows: Vec<Row> =
+        workers.map(numbers.len(), 1024, progress, |range| range.map(|texel| blending.row(texel)).collect())?;
+    Ok(rows.into())
 }
 
 /// For each texel its number among the nodes, or [`NONE`].

@@ -1,5 +1,6 @@
 //! Light that reaches a texel from all other surfaces: gathered at nodes, interpolated between them.
 
+use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -9,7 +10,7 @@ use super::{Texel, Texels};
 use crate::geometry::{Hit, Occluders, Sobol, cosine_direction, hash};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
-use crate::transport::{Keep, Row, Tracer};
+use crate::transport::{Contact, Keep, Row, Rows, Tracer};
 
 /// How densely light is gathered, and with how many rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,17 +73,32 @@ impl Gathered {
 pub struct Nodes {
     /// For each texel.
     pub gathered: Vec<Gathered>,
-    /// For each texel what it sees, where that is kept: empty rows for those that are no nodes.
-    pub rows: Vec<Row>,
+    /// What texels see: all that are nodes where the transport is kept, else by their first rays those that touch
+    /// something.
+    pub rows: BTreeMap<u32, Row>,
+    /// What the rows take, in bytes.
+    pub bytes: usize,
 }
 
 impl Nodes {
-    fn new(texels: usize, keep: Keep) -> Self {
-        let rows = match keep {
-            Keep::Lightmaps => 0,
-            Keep::Transport => texels,
-        };
-        Self { gathered: vec![Gathered::default(); texels], rows: vec![Row::default(); rows] }
+    fn new(texels: usize) -> Self {
+        Self { gathered: vec![Gathered::default(); texels], ..Self::default() }
+    }
+
+    /// Takes in what more rays from a texel saw, and their row if there is one; `room` is what rows may take, in bytes.
+    fn merge(&mut self, texel: usize, more: &Gathered, row: Option<Row>, room: usize) {
+        self.gathered[texel].merge(more);
+        let Some(row) = row.filter(|row| self.bytes + row.bytes() <= room) else { return };
+        self.bytes += row.bytes();
+        let before = self.rows.entry(texel as u32).or_default();
+        *before = before.merge(&row);
+    }
+
+    /// What each texel gathered, and which of them see what.
+    pub fn split(self) -> (Vec<Gathered>, Vec<Contact>, Rows) {
+        let (texels, rows): (Vec<u32>, Vec<Row>) = self.rows.into_iter().unzip();
+        let numbered = texels.into_iter().zip(0..).map(|(texel, node)| Contact { texel, node });
+        (self.gathered, numbered.collect(), rows.into())
     }
 }
 
@@ -98,8 +114,12 @@ pub struct Gather<'a, O, C> {
     pub column: C,
     /// The radiance of each, in cd/m2.
     pub radiance: &'a [Vec3A],
-    /// Whether the nodes keep what they see.
+    /// Whether a texel that sees things at this harmonic mean distance, in meters, touches them.
+    pub touches: &'a (dyn Fn(usize, f32) -> bool + Sync),
+    /// Which nodes keep what they see: all, or those that touch something.
     pub keep: Keep,
+    /// What is kept may take so many bytes.
+    pub room: usize,
     /// How densely.
     pub settings: GatherSettings,
     /// Of all random decisions.
@@ -117,7 +137,7 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
     ///
     /// `direct` is the direct light of each texel, mean over the channels: errors are seen against all light.
     pub fn run(&self, direct: &[f32], workers: &Workers, progress: &Progress) -> Result<Nodes, Cancelled> {
-        let mut nodes = Nodes::new(self.texels.list.len(), self.keep);
+        let mut nodes = Nodes::new(self.texels.list.len());
         let cells = self.place(&mut nodes, workers, progress)?;
         self.refine(direct, &cells, &mut nodes, workers, progress)?;
         Ok(nodes)
@@ -136,13 +156,11 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
         for (number, batch) in wanted.chunks(BATCH).enumerate() {
             progress.enter_part(number, wanted.len().div_ceil(BATCH));
             let found = workers.map(batch.len(), 16, progress, |range| {
-                batch[range].iter().map(|&(texel, rays)| self.node(texel, rays, seed)).collect()
+                let node = |&(texel, rays): &(usize, u32)| self.node(texel, rays, seed, nodes);
+                batch[range].iter().map(node).collect()
             })?;
             for (&(texel, _), (more, row)) in batch.iter().zip(found) {
-                nodes.gathered[texel].merge(&more);
-                if let Some(kept) = nodes.rows.get_mut(texel) {
-                    *kept = kept.merge(&row);
-                }
+                nodes.merge(texel, &more, row, self.room);
             }
         }
         Ok(())
@@ -152,7 +170,7 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
     ///
     /// The texels of a tile share a sequence and take one run of its points after the other: each run fills the
     /// hemisphere evenly, and so do all runs of neighbors together, which is what the filter mixes.
-    fn node(&self, index: usize, rays: u32, seed: u32) -> (Gathered, Row) {
+    fn node(&self, index: usize, rays: u32, seed: u32, known: &Nodes) -> (Gathered, Option<Row>) {
         let texel = &self.texels.list[index];
         let (tile, place) = self.place_in_tile(texel);
         let flat = self.tracer.world.normals[texel.triangle as usize];
@@ -182,7 +200,16 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
             rays,
             width: 0,
         };
-        (gathered, self.keep.row(&mut columns))
+        let keeps = self.keeps(index, gathered.distance, known);
+        (gathered, keeps.then(|| Row::count(&mut columns)))
+    }
+
+    /// Whether a texel keeps what these rays see.
+    fn keeps(&self, index: usize, distance: f32, known: &Nodes) -> bool {
+        match self.keep {
+            Keep::Transport => true,
+            Keep::Lightmaps => known.gathered[index].rays == 0 && (self.touches)(index, distance),
+        }
     }
 
     /// The tile of a texel, and its place on a Z-curve through the tile.

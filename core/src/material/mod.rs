@@ -1,10 +1,9 @@
 //! What a surface does with light: reflectance, exitance, alpha, each a factor and perhaps a texture.
 
 mod lookup;
-mod srgb;
 mod texture;
 
-pub use srgb::*;
+pub use crate::spectrum::{linear_to_srgb, srgb_to_linear};
 pub use texture::*;
 
 use alloc::string::String;

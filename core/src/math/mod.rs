@@ -16,8 +16,8 @@ pub use vector::*;
 mod single {
     pub use libm::{
         acosf as acos, asinf as asin, atan2f as atan2, atanf as atan, ceilf as ceil, cosf as cos, exp2f as exp2,
-        expf as exp, floorf as floor, log1pf as ln_1p, log2f as log2, logf as ln, powf, roundf as round, sinf as sin,
-        sqrtf as sqrt, tanf as tan,
+        expf as exp, expm1f as exp_m1, floorf as floor, log1pf as ln_1p, log2f as log2, logf as ln, powf,
+        roundf as round, sinf as sin, sqrtf as sqrt, tanf as tan,
     };
 
     /// Sine and cosine of an angle in radians.
@@ -52,7 +52,7 @@ macro_rules! of_std {
 
 #[cfg(all(feature = "std", not(feature = "libm")))]
 mod single {
-    of_std!(f32: acos, asin, atan, ceil, cos, exp2, exp, floor, log2, ln, ln_1p, round, sin, sqrt, tan);
+    of_std!(f32: acos, asin, atan, ceil, cos, exp2, exp, exp_m1, floor, log2, ln, ln_1p, round, sin, sqrt, tan);
 
     /// `f32::powf`
     #[inline]

@@ -7,6 +7,7 @@ use glam::{DVec3, Vec2, Vec3};
 use super::view::{View, lightmap_place};
 use super::{Camera, automatic_ev100, exposure, khronos_pbr_neutral, valid_texels};
 use crate::bake::Bake;
+use crate::composite::{PremultipliedRgba, front_to_back};
 use crate::geometry::{Hit, Ray};
 use crate::lightmap::LightmapImage;
 use crate::material::linear_to_srgb;
@@ -87,21 +88,17 @@ impl Picture<'_> {
 
     /// What arrives along a ray, through all transparent layers.
     fn radiance(&self, ray: &Ray) -> Vec3 {
-        let mut radiance = Vec3::ZERO;
-        let mut passing = 1.0;
-        let mut layer = None;
-        for _ in 0..LAYERS {
-            let Some(hit) = self.view.nearest(ray, layer.as_ref()) else { break };
+        let mut last = None;
+        let layers = core::iter::from_fn(|| {
+            let hit = self.view.nearest(ray, last.as_ref())?;
             let opacity = self.view.opacity(&hit);
             let reflected = self.view.reflectance(&hit) * self.baked_texel(&hit).unwrap_or(self.mean);
-            radiance += passing * opacity * (reflected + self.view.emission(&hit));
-            passing *= 1.0 - opacity;
-            if passing <= 0.0 {
-                return radiance;
-            }
-            layer = Some(hit);
-        }
-        radiance + passing * self.view.scene.sky
+            let color = reflected + self.view.emission(&hit);
+            last = Some(hit);
+            Some(PremultipliedRgba::adding(color * opacity, opacity))
+        });
+        let sky = PremultipliedRgba::adding(self.view.scene.sky, 1.0);
+        front_to_back(layers.take(LAYERS).chain([sky])).rgb()
     }
 
     /// Irradiance / pi from the lightmap of a surface, if it has one.

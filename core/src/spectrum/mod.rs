@@ -1,8 +1,10 @@
 //! What is carried by light: grey, RGB, or any number of wavelength bands, each on its own.
 
 mod cornell;
+mod srgb;
 
 pub use cornell::*;
+pub use srgb::*;
 
 use core::ops::{Add, AddAssign, Mul, Sub};
 

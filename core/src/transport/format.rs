@@ -7,14 +7,14 @@ use core::fmt;
 use glam::Vec3;
 
 use super::{
-    Cells, Codes, Fills, LampLight, Lighting, MaterialColors, Origin, Rows, Run, Sample, SeamPoint, Seams, StoredImage,
-    Surfaces, Transport,
+    Cells, Codes, Contact, Fills, LampLight, Lighting, MaterialColors, Origin, Rows, Run, Sample, SeamPoint, Seams,
+    StoredImage, Surfaces, Transport,
 };
 
 /// The first bytes of a file.
 const MAGIC: [u8; 8] = *b"RADIOSTP";
 /// What this version writes, and the only one that it reads.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// Magic, version, a reserved zero, length and checksum of the rest.
 const HEADER: usize = 32;
 /// Images have at most so many texels in a row and so many rows.
@@ -107,8 +107,19 @@ impl Transport {
 
     /// Whether all lists fit together, so that nothing that is named is missing.
     fn is_sound(&self) -> bool {
-        let Self { surfaces, lamps, patches, nodes, texels, images, seams, lighting, lamp_names, material_names } =
-            self;
+        let Self {
+            surfaces,
+            lamps,
+            patches,
+            nodes,
+            contacts,
+            texels,
+            images,
+            seams,
+            lighting,
+            lamp_names,
+            material_names,
+        } = self;
         let (receivers, all) = (surfaces.receivers(), surfaces.patch_of.len());
         let of_image = |image: &StoredImage| {
             let within = image.width.max(image.height) <= LARGEST_IMAGE;
@@ -121,6 +132,7 @@ impl Transport {
             && lamps.iter().all(|lamp| lamp.is_sound(receivers, lighting))
             && (patches.len() == surfaces.areas.len() + 2 && patches.is_sound(patches.len()))
             && nodes.is_sound(surfaces.columns())
+            && contacts.iter().all(|contact| (contact.texel as usize) < all && (contact.node as usize) < nodes.len())
             && (texels.len() == all && texels.is_sound(nodes.len()))
             && images.iter().map(|image| image.places.len()).sum::<usize>() == all
             && images.iter().all(of_image)
@@ -207,8 +219,9 @@ macro_rules! fields {
 }
 
 fields! {
-    Transport { surfaces, lamps, patches, nodes, texels, images, seams, lighting, lamp_names, material_names }
+    Transport { surfaces, lamps, patches, nodes, contacts, texels, images, seams, lighting, lamp_names, material_names }
     Surfaces { areas, materials, bare, patch_of, texel_areas, reflectance, emission, cells, around }
+    Contact { texel, node }
     Cells { of_texel, count }
     Codes { largest, codes }
     Rows { ends, entries, totals }

@@ -24,6 +24,7 @@
 //! is waiting for the last one.
 
 mod codes;
+mod contacts;
 mod fills;
 mod format;
 mod keep;
@@ -40,6 +41,7 @@ mod surfaces;
 mod tracer;
 
 pub use codes::*;
+pub use contacts::*;
 pub use fills::*;
 pub use format::*;
 pub use keep::*;

@@ -6,7 +6,7 @@ use core::fmt;
 
 use glam::{Vec3, Vec3A};
 
-use super::{Lighting, LightingError, SeamSolver, Solution, StoredImage, Transport};
+use super::{Contacts, Lighting, LightingError, SeamSolver, Solution, StoredImage, Transport};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 
@@ -128,10 +128,14 @@ impl<'a> Relighter<'a> {
         report.sweeps = solution.sweeps;
         report.solve = clock.lap();
 
-        let radiance = surfaces.radiance(lighting, &direct, &solution, workers, progress)?;
+        let mut radiance = surfaces.radiance(lighting, &direct, &solution, workers, progress)?;
         report.radiance = clock.lap();
 
-        let nodes = transport.gather(&radiance, workers, progress)?;
+        let mut nodes = transport.gather(&radiance, workers, progress)?;
+        let contacts = Contacts { surfaces, list: &transport.contacts, rows: &transport.nodes };
+        let mut touched: Vec<Vec3A> = contacts.list.iter().map(|contact| nodes[contact.node as usize]).collect();
+        contacts.exchange(lighting, &solution.received, &mut radiance, &mut touched, workers, progress)?;
+        contacts.list.iter().zip(&touched).for_each(|(contact, &light)| nodes[contact.node as usize] = light);
         report.gather = clock.lap();
 
         let mut images = transport.images(&direct, &nodes, workers, progress)?;

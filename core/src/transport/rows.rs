@@ -56,6 +56,11 @@ impl Row {
         Self::new(all.chunk_by(|a, b| a.0 == b.0).map(sum))
     }
 
+    /// What the row takes, in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of::<Self>() + 4 * self.entries.len()
+    }
+
     /// A row of columns, in their order, and counts.
     fn new(counts: impl Iterator<Item = (u32, u32)>) -> Self {
         let (mut entries, mut total, mut last) = (Vec::new(), 0, 0);

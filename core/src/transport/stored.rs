@@ -3,13 +3,14 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::{Fills, LampLight, Lighting, Rows, Seams, Surfaces};
+use super::{Contact, Fills, LampLight, Lighting, Rows, Seams, Surfaces};
 
 /// How light travels through a baked scene: with it, lamps, colors and the sky can change without a ray.
 ///
 /// With `D` the direct light of the lamps, `F` the form factors between patches, `G` what nodes see of surfaces and `W`
-/// how texels are mixed from nodes, a lightmap is `D + W G (e + rho (D + F b))`, where `b = e + rho (D + F b)`. Only
-/// `e`, `rho` and the strengths in `D` depend on the [`Lighting`].
+/// how texels are mixed from nodes, a lightmap is `D + W G (e + rho (D + F b))`, where `b = e + rho (D + F b)`; at
+/// contacts the light of their own takes the place of `F b`. Only `e`, `rho` and the strengths in `D` depend on the
+/// [`Lighting`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Transport {
     /// What surfaces do with light: `e` and `rho`.
@@ -20,6 +21,8 @@ pub struct Transport {
     pub patches: Rows,
     /// `G`: a row for each node, of pieces of surface.
     pub nodes: Rows,
+    /// The nodes that touch what they see.
+    pub contacts: Vec<Contact>,
     /// `W`: a row for each texel, of nodes.
     pub texels: Rows,
     /// The images, in the order of the bake; the texels of each follow those of the one before.
@@ -82,7 +85,7 @@ impl Transport {
         let images = self.images.iter().map(|image| 4 * image.places.len() + image.fills.bytes());
         TransportBytes {
             patches: self.patches.bytes(),
-            nodes: self.nodes.bytes(),
+            nodes: self.nodes.bytes() + size_of::<Contact>() * self.contacts.len(),
             texels: self.texels.bytes(),
             lamps: self.lamps.iter().map(LampLight::bytes).sum(),
             surfaces: self.surfaces.bytes() + images.sum::<usize>(),

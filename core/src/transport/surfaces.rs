@@ -100,12 +100,6 @@ impl Surfaces {
         self.first(size) + index
     }
 
-    /// Forgets what only tells radiances from lights, and is not asked for again where nothing is kept.
-    pub fn forget_materials(&mut self) {
-        (self.reflectance, self.emission, self.texel_areas) = Default::default();
-        self.forget_neighbors();
-    }
-
     /// Forgets between which patches texels interpolate.
     pub fn forget_neighbors(&mut self) {
         self.around = Rows::default();
@@ -130,7 +124,7 @@ impl Surfaces {
     }
 
     #[inline]
-    fn first(&self, size: Size) -> u32 {
+    pub(super) fn first(&self, size: Size) -> u32 {
         let after_patches = self.areas.len() as u32 + 2;
         match size {
             Size::Patch => 0,
@@ -211,6 +205,23 @@ impl Surfaces {
             *whole += area;
         }
         sums.into_iter().map(|(sum, area)| sum / area.max(f32::MIN_POSITIVE)).collect()
+    }
+
+    /// The reflectance of a texel; zero where it belongs to no patch.
+    pub(super) fn reflectance_of(&self, texel: u32, lighting: &Lighting) -> Vec3A {
+        match self.patch_of[texel as usize] as usize {
+            patch if patch < self.areas.len() => self.reflectance(lighting, texel as usize, patch),
+            _ => Vec3A::ZERO,
+        }
+    }
+
+    /// The cells of a size between patches and texels.
+    pub(super) fn cells_of(&self, size: Size) -> Option<&Cells> {
+        match size {
+            Size::Four => Some(&self.cells[0]),
+            Size::Two => Some(&self.cells[1]),
+            Size::Patch | Size::Texel => None,
+        }
     }
 
     fn reflectance(&self, lighting: &Lighting, place: usize, patch: usize) -> Vec3A {

@@ -11,9 +11,9 @@ mod avx2;
 mod plain;
 
 #[cfg(target_arch = "x86_64")]
-use avx2::Level;
+pub use avx2::Level;
 #[cfg(not(target_arch = "x86_64"))]
-use plain::Level;
+pub use plain::Level;
 
 pub use collapse::{Binary, Content};
 
@@ -25,7 +25,8 @@ use glam::Vec3;
 use super::occluders::is_before;
 use super::{Hit, Ray};
 use collapse::Collapse;
-use lanes::{LANES, Lanes};
+use lanes::LANES;
+pub use lanes::Lanes;
 use leaf::{Leaf, LeafRay};
 pub use node::PADDING;
 use node::{BoxRay, Node};

@@ -1,0 +1,115 @@
+//! The order in which transparent things are drawn: keys, and sorting by them.
+//!
+//! [`ViewDepth`] measures how near a thing is, [`DrawKey`] puts layer, priority and depth into one number, [`sort`] orders
+//! from scratch and [`resort`] from the order of the frame before. All of it happens in the caller's slices.
+
+mod depth;
+mod key;
+mod radix;
+
+pub use depth::*;
+pub use key::*;
+
+use radix::radix_sort;
+
+/// So many comparisons and moves per entry may the order of the frame before cost; then it was not worth keeping.
+const PATIENCE: usize = 4;
+
+/// Of the entries whose depths are all but equal so many are looked at to find the one that was first before.
+const WINDOW: usize = 32;
+
+/// One thing to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Draw {
+    /// When it is drawn.
+    pub key: DrawKey,
+    /// Its place in the order of the frame before: among equals it decides.
+    pub rank: u32,
+    /// Which thing it is; anything that the caller finds it by.
+    pub index: u32,
+}
+
+/// Sorts things to be drawn: lower layers first, then lower priorities, then from far to near. Equal ones stay in the
+/// order in which they stand. Ranks are then the places in the new order.
+///
+/// With `scratch` as long as `draws` it is a radix sort, in time proportional to their number; what stands there does not
+/// matter. A shorter one, even none, is enough for a sort by comparisons.
+///
+/// ```
+/// use radiosity::composite::{Draw, DrawKey, sort};
+///
+/// let mut draws = [(0, -2.0), (1, -9.0), (2, -5.0)]
+///     .map(|(index, depth)| Draw { key: DrawKey::new(0, 0, depth), rank: 0, index });
+/// sort(&mut draws, &mut []);
+/// assert_eq!(draws.map(|draw| draw.index), [1, 2, 0], "from far to near");
+/// ```
+pub fn sort(draws: &mut [Draw], scratch: &mut [Draw]) {
+    renumber(draws);
+    radix_sort(draws, scratch);
+    renumber(draws);
+}
+
+/// Sorts things that stand in the order of the frame before, ranks and all, with new keys: in linear time where few have
+/// changed places, as [`sort`] otherwise.
+///
+/// Things whose depths differ by no more than `tolerance` keep the order that they had, unless a third one forces them
+/// apart; so that things at the same depth do not flicker when rounding, or a camera that trembles, favors now one and now
+/// the other. All others are in true order, without exception. New things are appended, with the rank `u32::MAX`; others may be
+/// left out.
+pub fn resort(draws: &mut [Draw], scratch: &mut [Draw], tolerance: f32) {
+    if !insertion_sort(draws, PATIENCE * draws.len()) {
+        radix_sort(draws, scratch);
+    }
+    if tolerance > 0.0 {
+        draws.chunk_by_mut(|a, b| a.key.group() == b.key.group()).for_each(|group| keep_order(group, tolerance));
+    }
+    renumber(draws);
+}
+
+fn renumber(draws: &mut [Draw]) {
+    draws.iter_mut().zip(0..).for_each(|(draw, rank)| draw.rank = rank);
+}
+
+/// Whether it is done after so many moves. Equal entries stay in the order of their ranks.
+fn insertion_sort(draws: &mut [Draw], mut moves: usize) -> bool {
+    for k in 1..draws.len() {
+        let draw = draws[k];
+        let mut place = k;
+        while place > 0 && draw.key < draws[place - 1].key {
+            draws[place] = draws[place - 1];
+            place -= 1;
+        }
+        draws[place] = draw;
+        let Some(left) = moves.checked_sub(k - place) else { return false };
+        moves = left;
+    }
+    true
+}
+
+/// Brings those back into the order of their ranks whose depths differ by no more than the tolerance.
+///
+/// Of what is left, all that is farther by more than the tolerance than others must come before them: a semiorder. Those
+/// within the tolerance of the farthest may come next, and of them the one comes that was first before.
+fn keep_order(group: &mut [Draw], tolerance: f32) {
+    let mut next = 0;
+    let mut end = 0;
+    while next < group.len() {
+        let limit = group[next].key.depth() + tolerance;
+        if group.get(next + 1).is_none_or(|draw| draw.key.depth() > limit) {
+            next += 1;
+            continue;
+        }
+        end = end.max(next + 1);
+        end += group[end..].iter().take_while(|draw| draw.key.depth() <= limit).count();
+        let is_apart = group.get(end).is_none_or(|draw| draw.key.depth() > group[end - 1].key.depth() + tolerance);
+        if is_apart {
+            group[next..end].sort_unstable_by_key(|draw| draw.rank);
+            next = end;
+            continue;
+        }
+        let window = &mut group[next..end.min(next + WINDOW)];
+        let first = (0..window.len()).min_by_key(|&k| window[k].rank).unwrap_or(0);
+        window[..=first].rotate_right(1);
+        next += 1;
+    }
+}
