@@ -1,12 +1,13 @@
-//! The viewer and the gallery, as built beside this test, make the pictures and scenes that they are asked for.
+//! The examples that need Bevy, as built beside this test, make the pictures and scenes that they are asked for.
 
 use std::env;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};
+use std::sync::atomic::AtomicBool;
 
-use bevy_radiosity::cli::read_scene;
+use bevy_radiosity::cli::{read_scene, try_run};
 use radiosity::bake::{BakeSettings, Quality, bake};
 use radiosity::lightmap::{LayoutSettings, LightmapImage, Resolution};
 use radiosity::progress::Progress;
@@ -121,4 +122,32 @@ fn gallery_makes_scenes_that_can_be_baked() {
         assert!(bright.count() > bake.report.valid_texels / 2, "{name} is dark");
         assert!(bake.report.valid_texels > 4 * bake.report.invalid_texels, "{name}: {:?}", bake.report);
     }
+}
+
+/// Surfaces of splines are charts by nature: all coordinates are kept, and light goes on from patch to patch.
+#[test]
+fn vase_and_vault_need_no_unwrap() {
+    let Some(_) = Studio::new() else { return };
+    let folder = TestFolder::new("vase");
+    let (scene, out) = (folder.path().join("vase.glb"), folder.path().join("baked"));
+    let status = example("spline_vase", &["--scene", scene.to_str().expect("it has a name in Unicode")]);
+    assert!(status.success(), "{status}");
+    let words = ["bake".as_ref(), scene.as_os_str(), "--out".as_ref(), out.as_os_str()];
+    let options = ["--uv", "keep", "--quality", "draft", "--texels-per-meter", "24"].map(AsRef::as_ref);
+    let words = words.into_iter().chain(options).map(|word: &std::ffi::OsStr| word.to_owned());
+    try_run(words, &AtomicBool::new(false)).expect("all coordinates can be kept");
+    let report = std::fs::read(out.join("report.json")).expect("it is written");
+    let report: serde_json::Value = serde_json::from_slice(&report).expect("it is JSON");
+    assert_eq!(report["settings"]["uv"], "keep");
+    assert_eq!(report["surfaces"], 17);
+    assert_eq!(report["warnings"].as_array().map(Vec::len), Some(0), "{}", report["warnings"]);
+    let [before, after] = ["step_before", "step_after"].map(|key| report["seams"][key].as_f64().expect("a number"));
+    assert!(after < 0.01 && after < 0.2 * before, "{before} {after}");
+}
+
+#[test]
+fn spline_examples_tell_wrong_arguments() {
+    assert_eq!(example("spline_vase", &["--screenshot"]).code(), Some(2));
+    assert_eq!(example("spline_vase", &["--texels-per-meter", "0"]).code(), Some(2));
+    assert_eq!(example("spline_rail", &["--no-such-option"]).code(), Some(2));
 }

@@ -1,5 +1,7 @@
 //! Bevy's meshes, images, materials, lights and units, and those of the core. The only file that knows both.
 
+pub mod cubics;
+
 use std::f32::consts::PI;
 
 use bevy::gltf::GltfMaterial;

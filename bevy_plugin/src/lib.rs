@@ -24,6 +24,10 @@
 //! | [`AngularDiameter`](bake::AngularDiameter) | how large a directional light looks |
 //! | [`BakeId`](bake::BakeId) | finds the entity again when a saved bake is loaded |
 //! | `BakedSceneRoot` | attaches a saved bake; nothing is baked |
+//! | [`SplineSurface`](spline::SplineSurface) | its mesh follows its control points |
+//! | [`SplineCurve`](spline::SplineCurve) | a way, with [`SplineSweep`](spline::SplineSweep) a tube, a ribbon or a line |
+//! | [`TravelAlong`](spline::TravelAlong) | moves along a curve at constant speed |
+//! | [`LightsAlong`](spline::LightsAlong) | lights at equal distances on a curve |
 //!
 //! # What to say and hear
 //!
@@ -48,6 +52,7 @@
 //! | `lightmap_mesh` | meshes with the coordinates of a bake |
 //! | `lightmap_guard` | `Lightmap` components that are safe to add, change and remove |
 //! | `attach` | baked light onto entities and off again |
+//! | [`spline`] | curves and surfaces whose meshes follow their control points |
 //! | [`bake`] | the bake inside an app |
 //! | [`baked`] | the saved bake |
 //! | `cli` | the command line |
@@ -64,6 +69,8 @@ pub mod lightmap_guard;
 
 #[cfg(feature = "render")]
 pub mod attach;
+
+pub mod spline;
 
 pub mod bake;
 pub mod baked;

@@ -6,12 +6,18 @@ use crate::bake::BakePlugin;
 use crate::baked::BakedScenePlugin;
 use crate::gltf::GltfSourcePlugin;
 use crate::lightmap_guard::LightmapGuardPlugin;
+#[cfg(feature = "gizmos")]
+use crate::spline::SplineGizmoPlugin;
+use crate::spline::SplinePlugin;
 
 plugin_group! {
     /// Bakes, saves, loads and shows lightmaps. Add it after `DefaultPlugins`.
     pub struct RadiosityPlugins {
         :GltfSourcePlugin,
         :LightmapGuardPlugin,
+        :SplinePlugin,
+        #[cfg(feature = "gizmos")]
+        :SplineGizmoPlugin,
         :BakePlugin,
         :BakedScenePlugin,
     }

@@ -10,3 +10,9 @@ pub use crate::bake::{
 };
 #[cfg(feature = "render")]
 pub use crate::baked::{BakeSaved, BakedScene, BakedSceneRoot, SaveBake, SaveFailed};
+#[cfg(feature = "gizmos")]
+pub use crate::spline::SplineGizmo;
+pub use crate::spline::{
+    ControlNet, LightAlong, LightsAlong, PathEnd, SplineCurve, SplinePath, SplineSurface, SplineSweep, SplineTolerance,
+    TravelAlong,
+};

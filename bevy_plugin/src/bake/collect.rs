@@ -13,12 +13,13 @@ use bevy::light::{DirectionalLight, NotShadowCaster, PointLight, RectLight, Spot
 use bevy::mesh::skinning::SkinnedMesh;
 use bevy::prelude::*;
 use radiosity::light::{Light, LightSource};
-use radiosity::scene::{Receiver, Scene, Surface};
+use radiosity::scene::{CurvedMesh, Receiver, Scene, Surface};
 
 use self::found::{Found, LOOKUPS};
 use super::components::{AngularDiameter, Baked, NotBaked};
 use crate::convert;
 use crate::gltf::GltfSource;
+use crate::spline::SplineMesh;
 
 /// What the sun looks like from Earth, in radians.
 const SUN_DIAMETER: f32 = 0.53 * std::f32::consts::PI / 180.0;
@@ -116,10 +117,16 @@ impl<'w> Collector<'w> {
         if entity.contains::<SkinnedMesh>() {
             return self.note("is left out, because it is skinned; give it light from a probe", name);
         }
+        let known = self.collected.scene.meshes.len();
         let mesh = match self.mesh(handle, &name) {
             Ok(mesh) => mesh,
             Err(reason) => return self.note(&format!("is left out, because it {reason}"), name),
         };
+        if let Some(surface) = entity.get::<SplineMesh>().and_then(|made| made.surface_of(handle.id()))
+            && mesh == known
+        {
+            self.collected.scene.curved.push(CurvedMesh { mesh, surface: surface.clone() });
+        }
         let (material, lit) = self.material(entity, &name, mesh);
         let receives = lit && density > 0.0;
         self.collected.surfaces.push(entity.id());

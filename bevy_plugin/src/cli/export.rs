@@ -96,6 +96,12 @@ fn mesh(document: &mut Document, mesh: &Mesh, material: usize) -> Value {
     if !mesh.normals.is_empty() {
         attributes["NORMAL"] = json!(Elements::vec3(&arrays(&mesh.normals)).write(document, true));
     }
+    for (name, list) in [("TEXCOORD_0", &mesh.uv_0), ("TEXCOORD_1", &mesh.uv_1)] {
+        if !list.is_empty() {
+            let list: Vec<[f32; 2]> = list.iter().map(|uv| uv.to_array()).collect();
+            attributes[name] = json!(Elements::vec2(&list).write(document, true));
+        }
+    }
     let indices = Elements::indices(mesh.triangles.as_flattened()).write(document, false);
     json!({ "name": mesh.name, "primitives": [
         { "attributes": attributes, "indices": indices, "material": material }] })

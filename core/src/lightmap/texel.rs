@@ -26,7 +26,7 @@ pub const CROSSED: u8 = 1 << 4;
 pub struct Texel {
     /// Where it is in the world: its center where that is covered, else the centroid of what is covered.
     pub position: Vec3,
-    /// Interpolated, of length 1.
+    /// Interpolated, or that of the curved surface which the mesh stands for; of length 1.
     pub normal: Vec3,
     /// What it covers of the world, in square meters.
     pub area: f32,

@@ -14,6 +14,7 @@ use glam::{Affine3A, Vec3};
 use crate::geometry::Mesh;
 use crate::light::Light;
 use crate::material::{Material, Texture};
+use crate::spline::{Homogeneous, OwnedSurface};
 
 /// Everything that takes part in a bake. Lengths are in meters.
 #[derive(Clone, Debug, Default)]
@@ -30,6 +31,20 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Radiance of the surroundings in cd/m2, the same in all directions.
     pub sky: Vec3,
+    /// Which of the meshes are triangles of curved surfaces.
+    pub curved: Vec<CurvedMesh>,
+}
+
+/// A mesh that stands for a surface of splines: texels have its normals rather than interpolated ones.
+///
+/// [`Tessellation::mesh`](crate::spline::Tessellation::mesh) makes such meshes: their `uv_0` are the parameters of the
+/// surface, scaled so that its domain is `0..1`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurvedMesh {
+    /// Index into `Scene::meshes`; one that the scene does not have means nothing.
+    pub mesh: usize,
+    /// The surface, in the space of the mesh.
+    pub surface: OwnedSurface<Homogeneous<Vec3>>,
 }
 
 /// A mesh at its place, with its material.

@@ -1,12 +1,17 @@
 //! All triangles of a scene in world space, and what a ray that meets one of them finds there.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::{Scene, Surface};
+use super::{CurvedMesh, Scene, Surface};
 use crate::geometry::{Hit, Mesh, normal_and_area};
 use crate::material::Material;
+
+/// So large a share of the way to the middle of its triangle is a point moved before the normal of a curved surface is
+/// taken there: on a crease it then has the normal of its side.
+const INWARDS: f32 = 1e-4;
 
 /// The triangles of a scene in world space. Those without area or with infinite corners are left out.
 #[derive(Clone, Debug)]
@@ -25,6 +30,8 @@ pub struct World<'a> {
     pub blockers: usize,
     /// For each triangle that was left out because a corner is not finite where it comes from.
     pub not_finite: Vec<Source>,
+    /// For each mesh the curved surface that it stands for.
+    curved: Vec<Option<&'a CurvedMesh>>,
 }
 
 /// Where a triangle comes from.
@@ -56,6 +63,7 @@ impl<'a> World<'a> {
             sides: Vec::new(),
             blockers: 0,
             not_finite: Vec::new(),
+            curved: curved_of_meshes(scene),
         };
         world.add_surfaces(|surface| surface.casts);
         world.blockers = world.corners.len();
@@ -153,11 +161,28 @@ impl<'a> World<'a> {
         material.alpha_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
     }
 
-    /// The interpolated normal at a point of a triangle, of length 1; that of the triangle where the mesh has none.
+    /// The normal at a point of a triangle, of length 1: that of the curved surface which the mesh stands for, else the
+    /// interpolated one, that of the triangle where the mesh has none.
     pub fn shading_normal(&self, hit: &Hit) -> Vec3 {
+        if let Some(normal) = self.curved_normal(hit) {
+            return normal;
+        }
         let flat = self.normals[hit.triangle as usize];
         let smooth = hit.interpolate(self.corner_normals(hit.triangle)).normalize_or(flat);
         if smooth.dot(flat) < 0.0 { -smooth } else { smooth }
+    }
+
+    /// The normal of the curved surface at the point that a point of a triangle stands for, if it shows to its front.
+    fn curved_normal(&self, hit: &Hit) -> Option<Vec3> {
+        let source = self.sources[hit.triangle as usize];
+        let surface = self.surface_of(source);
+        let curved = self.curved[surface.mesh]?.surface.surface();
+        let inside = hit.barycentric.lerp(Vec2::splat(1.0 / 3.0), INWARDS);
+        let [share, _] = self.uvs(&Hit { barycentric: inside, ..*hit });
+        let [u, v] = curved.domain();
+        let normal = curved.normal(u[0] + (u[1] - u[0]) * share.x, v[0] + (v[1] - v[0]) * share.y);
+        let normal = (surface.transform.matrix3.inverse().transpose() * normal).try_normalize()?;
+        (normal.dot(self.normals[hit.triangle as usize]) > 0.0).then_some(normal)
     }
 
     /// The normals at the corners of a triangle, each of length 1 and on its front side.
@@ -197,6 +222,16 @@ impl<'a> World<'a> {
     fn mesh_of(&self, source: Source) -> &'a Mesh {
         &self.scene.meshes[self.surface_of(source).mesh]
     }
+}
+
+fn curved_of_meshes(scene: &Scene) -> Vec<Option<&CurvedMesh>> {
+    let mut of_meshes = vec![None; scene.meshes.len()];
+    for curved in &scene.curved {
+        if let Some(of_mesh) = of_meshes.get_mut(curved.mesh) {
+            *of_mesh = Some(curved);
+        }
+    }
+    of_meshes
 }
 
 /// Whether the transform of a surface turns its winding around.
