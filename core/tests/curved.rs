@@ -66,13 +66,14 @@ fn point_at(surface: &Surface, part: &Tessellation<Vec3>, at: Vec2) -> Option<Ve
     })
 }
 
-/// Texels nearer than this to a border of the chart are changed for the sake of the seam.
-const REACH: f32 = 10.0;
+/// Texels nearer than this to a border of the chart are changed for the sake of the seam, or of the pole: there triangles
+/// of two corners at the pole have none of the surface between them.
+const REACH: f32 = 20.0;
 
 /// The largest and the root of the mean squared error of all texels well in the sun, over the irradiance that it has
 /// where it falls straight down. `normal_at` is the closed form.
 fn errors(scene: &Scene, surface: &Surface, normal_at: impl Fn(Vec3) -> Vec3) -> [f32; 2] {
-    let bake: Bake = baked(scene, &settings(24.0, Quality::Draft));
+    let bake: Bake = baked(scene, &settings(32.0, Quality::Draft));
     assert!(bake.uvs.iter().flatten().all(|uv| uv.origin == UvOrigin::Kept), "it is a chart by nature");
     let (part, image, placement) = (coarse(surface), &bake.images[0], bake.placements[0].unwrap());
     let (mut largest, mut sum, mut count) = (0.0_f32, 0.0, 0);
@@ -80,9 +81,9 @@ fn errors(scene: &Scene, surface: &Surface, normal_at: impl Fn(Vec3) -> Vec3) ->
         let pixel = Vec2::new((index as u32 % image.width) as f32, (index as u32 / image.width) as f32) + 0.5;
         let at = pixel / Vec2::new(image.width as f32, image.height as f32);
         let at = (at - placement.min) / (placement.max - placement.min);
-        let width = (placement.max.x - placement.min.x) * image.width as f32;
+        let size = (placement.max - placement.min) * Vec2::new(image.width as f32, image.height as f32);
         let Some(point) = point_at(surface, &part, at) else { continue };
-        if at.x.min(1.0 - at.x) * width < REACH {
+        if (at.min(Vec2::ONE - at) * size).min_element() < REACH {
             continue;
         }
         let cosine = normal_at(point).dot(-SUN.normalize());
