@@ -28,6 +28,8 @@
 //! | [`SplineCurve`](spline::SplineCurve) | a way, with [`SplineSweep`](spline::SplineSweep) a tube, a ribbon or a line |
 //! | [`TravelAlong`](spline::TravelAlong) | moves along a curve at constant speed |
 //! | [`LightsAlong`](spline::LightsAlong) | lights at equal distances on a curve |
+//! | `TransparentOrder` | when a transparent entity is drawn: layer, priority, bias, which of its points counts |
+//! | `TransparentDepth` | on a camera: what counts as far |
 //!
 //! # What to say and hear
 //!
@@ -53,6 +55,7 @@
 //! | `lightmap_guard` | `Lightmap` components that are safe to add, change and remove |
 //! | `attach` | baked light onto entities and off again |
 //! | [`spline`] | curves and surfaces whose meshes follow their control points |
+//! | `transparency` | transparent things in the right order |
 //! | [`bake`] | the bake inside an app |
 //! | [`baked`] | the saved bake |
 //! | `cli` | the command line |
@@ -71,6 +74,9 @@ pub mod lightmap_guard;
 pub mod attach;
 
 pub mod spline;
+
+#[cfg(feature = "render")]
+pub mod transparency;
 
 pub mod bake;
 pub mod baked;

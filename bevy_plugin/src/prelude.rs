@@ -16,3 +16,5 @@ pub use crate::spline::{
     ControlNet, LightAlong, LightsAlong, PathEnd, SplineCurve, SplinePath, SplineSurface, SplineSweep, SplineTolerance,
     TravelAlong,
 };
+#[cfg(feature = "render")]
+pub use crate::transparency::{TransparentDepth, TransparentKey, TransparentOrder};

@@ -1,0 +1,71 @@
+//! Transparent things, drawn in the right order.
+//!
+//! | what happens | Bevy 0.19 alone | with [`TransparencyPlugin`] |
+//! |---|---|---|
+//! | a transparent mesh moves | it is drawn where it stood in the order when it came into view (bevyengine/bevy#24826) | where it stands now |
+//! | the camera turns | depth is the distance from the camera's plane: things change places | so too, or [`TransparentDepth::Radial`]: they do not |
+//! | two things are equally far | they flicker when rounding favors now one and now the other (bevyengine/bevy#10243) | they stay as they were |
+//! | one must be drawn before the other, wherever they are | nothing but `depth_bias` | [`TransparentOrder`] |
+//!
+//! It holds for everything in the phases `Transparent3d` and `Transmissive3d`: standard and custom materials, particles,
+//! gizmos. What has no mesh keeps the depth that its own plugin gives it, and what is always on top is drawn first, as in
+//! Bevy. Cameras with order independent transparency need no order; for what Bevy 0.19 draws without it there (additive,
+//! multiplied and premultiplied materials) the order counts.
+//!
+//! What no order of whole meshes can cure: meshes that pass through each other, that overlap in a cycle, or that surround
+//! each other. The example `overlap` shows it.
+
+mod components;
+mod extract;
+mod order;
+mod phase;
+mod place;
+
+use bevy::core_pipeline::core_3d::Transparent3d;
+use bevy::pbr::Transmissive3d;
+use bevy::prelude::*;
+use bevy::render::render_phase::sort_phase_system;
+use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
+
+pub use components::{TransparentDepth, TransparentKey, TransparentOrder};
+
+use order::{Held, LastOrder, hold, order};
+use phase::DepthSorted;
+
+/// Draws transparent things in the right order. Add it after `DefaultPlugins`; without a renderer it does nothing.
+#[derive(Default)]
+pub struct TransparencyPlugin;
+
+/// What the plugin does in the render world's `Render` schedule, within `RenderSystems::PhaseSort`.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TransparencySystems {
+    /// The phases are put aside, so that Bevy's own sort finds nothing to do.
+    Hold,
+    /// They come back in order. What looks at the order, or changes it, comes after.
+    Order,
+}
+
+impl Plugin for TransparencyPlugin {
+    fn build(&self, app: &mut App) {
+        let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
+        render_app
+            .init_resource::<extract::Orders>()
+            .add_systems(ExtractSchedule, (extract::extract_orders, extract::extract_depths))
+            .configure_sets(
+                Render,
+                (TransparencySystems::Hold, TransparencySystems::Order).in_set(RenderSystems::PhaseSort),
+            );
+        add_phase::<Transparent3d>(render_app);
+        add_phase::<Transmissive3d>(render_app);
+    }
+}
+
+fn add_phase<I: DepthSorted>(render_app: &mut SubApp) {
+    render_app.init_resource::<Held<I>>().init_resource::<LastOrder<I>>().add_systems(
+        Render,
+        (
+            hold::<I>.in_set(TransparencySystems::Hold).before(sort_phase_system::<I>),
+            order::<I>.in_set(TransparencySystems::Order).after(sort_phase_system::<I>),
+        ),
+    );
+}

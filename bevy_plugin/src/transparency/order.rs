@@ -1,0 +1,134 @@
+//! The order of the draws of each view.
+
+use bevy::platform::collections::HashMap;
+use bevy::prelude::*;
+use bevy::render::render_phase::{SortedRenderPhase, ViewSortedRenderPhases};
+use bevy::render::sync_world::MainEntity;
+use bevy::render::view::{ExtractedView, RetainedViewEntity};
+use radiosity::composite::{Draw, ViewDepth, resort};
+
+use super::TransparentDepth;
+use super::phase::DepthSorted;
+use super::place::Places;
+
+/// Depths count as equal that differ by less than this share of the largest coordinate in play: what rounding of
+/// single-precision transforms can do.
+const EQUAL: f32 = 4.0 * f32::EPSILON;
+
+/// The phases while Bevy's sort looks for them. It would go by places of old, and undo each frame what is in order.
+#[derive(Resource)]
+pub struct Held<I: DepthSorted>(ViewSortedRenderPhases<I>);
+
+impl<I: DepthSorted> Default for Held<I> {
+    fn default() -> Self {
+        Self(ViewSortedRenderPhases::default())
+    }
+}
+
+/// In which order the items of each view were drawn last.
+#[derive(Resource)]
+pub struct LastOrder<I> {
+    views: HashMap<RetainedViewEntity, Vec<ItemKey>>,
+    draws: Vec<Draw>,
+    scratch: Vec<Draw>,
+    phase: std::marker::PhantomData<fn(I)>,
+}
+
+impl<I> Default for LastOrder<I> {
+    fn default() -> Self {
+        Self { views: default(), draws: default(), scratch: default(), phase: default() }
+    }
+}
+
+type ItemKey = (Entity, MainEntity);
+
+pub fn hold<I: DepthSorted>(mut phases: ResMut<ViewSortedRenderPhases<I>>, mut held: ResMut<Held<I>>) {
+    std::mem::swap(&mut *phases, &mut held.0);
+}
+
+pub fn order<I: DepthSorted>(
+    views: Query<&ExtractedView>,
+    places: Places,
+    mut phases: ResMut<ViewSortedRenderPhases<I>>,
+    mut held: ResMut<Held<I>>,
+    mut last: ResMut<LastOrder<I>>,
+) {
+    std::mem::swap(&mut *phases, &mut held.0);
+    last.views.retain(|view, _| phases.contains_key(view));
+    for view in &views {
+        let Some(phase) = phases.get_mut(&view.retained_view_entity) else { continue };
+        if !phase.items.is_empty() {
+            last.order(phase, view, &places);
+        }
+    }
+}
+
+impl<I: DepthSorted> LastOrder<I> {
+    fn order(&mut self, phase: &mut SortedRenderPhase<I>, view: &ExtractedView, places: &Places) {
+        let depth = view_depth(view, places);
+        let before = self.views.entry(view.retained_view_entity).or_default();
+        self.draws.clear();
+        let ranks = Ranks::new(before, phase);
+        let keyed = phase.items.iter_mut().enumerate().map(|(index, (item_key, item))| {
+            let key = places.key(item_key.1, item.sorting_info(), &depth);
+            item.set_distance(key.depth());
+            Draw { key, rank: ranks.of(index, item_key), index: index as u32 }
+        });
+        self.draws.extend(keyed);
+        self.scratch.resize(self.draws.len(), self.draws[0]);
+        let tolerance = tolerance(view, &self.draws);
+        resort(&mut self.draws, &mut self.scratch, tolerance);
+        rearrange(phase, &self.draws);
+        before.clear();
+        before.extend(phase.items.keys());
+    }
+}
+
+/// Where the items of a phase stood in the order before. Most of them stand there still: when others are removed, the
+/// last ones take their places.
+struct Ranks<'a> {
+    before: &'a [ItemKey],
+    strays: HashMap<ItemKey, u32>,
+}
+
+impl<'a> Ranks<'a> {
+    fn new<I: DepthSorted>(before: &'a [ItemKey], phase: &SortedRenderPhase<I>) -> Self {
+        let now = phase.items.keys().map(Some).chain(std::iter::repeat(None));
+        let strays = before.iter().zip(now).enumerate().filter(|(_, (then, now))| Some(*then) != *now);
+        Self { before, strays: strays.map(|(rank, (&then, _))| (then, rank as u32)).collect() }
+    }
+
+    fn of(&self, index: usize, key: &ItemKey) -> u32 {
+        if self.before.get(index) == Some(key) {
+            return index as u32;
+        }
+        self.strays.get(key).copied().unwrap_or(u32::MAX)
+    }
+}
+
+fn view_depth(view: &ExtractedView, places: &Places) -> ViewDepth {
+    let (eye, forward) = (view.world_from_view.translation(), *view.world_from_view.forward());
+    match places.orders.cameras.get(&view.retained_view_entity.main_entity).copied().unwrap_or_default() {
+        TransparentDepth::Planar => ViewDepth::Planar { eye, forward },
+        TransparentDepth::Radial => ViewDepth::Radial { eye },
+        TransparentDepth::Along(direction) => ViewDepth::Axis { axis: *direction },
+    }
+}
+
+fn tolerance(view: &ExtractedView, draws: &[Draw]) -> f32 {
+    let depths = draws.iter().map(|draw| draw.key.depth().abs()).filter(|depth| depth.is_finite());
+    let farthest = depths.fold(0.0, f32::max);
+    EQUAL * (farthest + view.world_from_view.translation().abs().max_element())
+}
+
+/// Moves each item to the place of its draw.
+fn rearrange<I: DepthSorted>(phase: &mut SortedRenderPhase<I>, draws: &[Draw]) {
+    let is_in_place = |(place, draw): (usize, &Draw)| place == draw.index as usize;
+    if draws.iter().enumerate().all(is_in_place) {
+        return;
+    }
+    let items = std::mem::take(&mut phase.items);
+    let mut items: Vec<_> = items.into_iter().map(Some).collect();
+    phase.items.reserve(items.len());
+    phase.items.extend(draws.iter().filter_map(|draw| items[draw.index as usize].take()));
+}
