@@ -1,6 +1,7 @@
 //! Helpers shared by the tests of the workspace.
 
 pub mod glb;
+pub mod panes;
 pub mod render;
 
 use std::fs;
