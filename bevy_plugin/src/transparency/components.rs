@@ -44,6 +44,9 @@ pub enum TransparentDepth {
     Planar,
     /// The distance from the camera. Turning the camera changes nothing.
     Radial,
+    /// What Bevy 0.19 does alone, for comparison: the distance from the plane through the camera to where each thing was
+    /// when it came into view. [`TransparentOrder`] does not count.
+    AsQueued,
     /// The position along this direction of the world; the farthest along it is drawn last. For scenes of layers.
     Along(Dir3),
 }

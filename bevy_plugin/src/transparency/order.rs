@@ -57,20 +57,26 @@ pub fn order<I: DepthSorted>(
     last.views.retain(|view, _| phases.contains_key(view));
     for view in &views {
         let Some(phase) = phases.get_mut(&view.retained_view_entity) else { continue };
-        if !phase.items.is_empty() {
-            last.order(phase, view, &places);
+        if phase.items.is_empty() {
+            continue;
+        }
+        match view_depth(view, &places) {
+            Some(depth) => last.order(phase, view, &depth, &places),
+            None => {
+                phase.recalculate_sort_keys(view);
+                phase.sort();
+            }
         }
     }
 }
 
 impl<I: DepthSorted> LastOrder<I> {
-    fn order(&mut self, phase: &mut SortedRenderPhase<I>, view: &ExtractedView, places: &Places) {
-        let depth = view_depth(view, places);
+    fn order(&mut self, phase: &mut SortedRenderPhase<I>, view: &ExtractedView, depth: &ViewDepth, places: &Places) {
         let before = self.views.entry(view.retained_view_entity).or_default();
         self.draws.clear();
         let ranks = Ranks::new(before, phase);
         let keyed = phase.items.iter_mut().enumerate().map(|(index, (item_key, item))| {
-            let key = places.key(item_key.1, item.sorting_info(), &depth);
+            let key = places.key(item_key.1, item.sorting_info(), depth);
             item.set_distance(key.depth());
             Draw { key, rank: ranks.of(index, item_key), index: index as u32 }
         });
@@ -106,12 +112,14 @@ impl<'a> Ranks<'a> {
     }
 }
 
-fn view_depth(view: &ExtractedView, places: &Places) -> ViewDepth {
+/// None where all is to stay as Bevy has it.
+fn view_depth(view: &ExtractedView, places: &Places) -> Option<ViewDepth> {
     let (eye, forward) = (view.world_from_view.translation(), *view.world_from_view.forward());
     match places.orders.cameras.get(&view.retained_view_entity.main_entity).copied().unwrap_or_default() {
-        TransparentDepth::Planar => ViewDepth::Planar { eye, forward },
-        TransparentDepth::Radial => ViewDepth::Radial { eye },
-        TransparentDepth::Along(direction) => ViewDepth::Axis { axis: *direction },
+        TransparentDepth::Planar => Some(ViewDepth::Planar { eye, forward }),
+        TransparentDepth::Radial => Some(ViewDepth::Radial { eye }),
+        TransparentDepth::Along(direction) => Some(ViewDepth::Axis { axis: *direction }),
+        TransparentDepth::AsQueued => None,
     }
 }
 
