@@ -1,11 +1,20 @@
-//! What the render world must know: the components of the few entities and cameras that have them.
+//! What the render world must know: what has moved, and the components of the few entities and cameras that have them.
 
 use bevy::camera::primitives::Aabb;
+use bevy::core_pipeline::core_3d::Transparent3d;
+use bevy::pbr::Transmissive3d;
 use bevy::prelude::*;
 use bevy::render::Extract;
+use bevy::render::render_phase::ViewSortedRenderPhases;
 use bevy::render::sync_world::{MainEntity, MainEntityHashMap};
 
+use super::phase::DepthSorted;
 use super::{TransparentDepth, TransparentOrder};
+
+/// The meshes that have moved since the last frame, transparent or not, with the centers of their bounding boxes in the
+/// world, where they have one. Empty while nothing is transparent.
+#[derive(Resource, Default)]
+pub struct Moved(pub Vec<(MainEntity, Option<Vec3>)>);
 
 /// The orders of entities and the depths of cameras.
 #[derive(Resource, Default)]
@@ -15,8 +24,30 @@ pub struct Orders {
     pub cameras: MainEntityHashMap<TransparentDepth>,
 }
 
+type Place<'a> = (Entity, &'a GlobalTransform, Option<&'a Aabb>);
+type HasMoved = (With<Mesh3d>, Or<(Changed<GlobalTransform>, Changed<Aabb>)>);
 type Ordered<'a> = (Entity, &'a TransparentOrder, Option<&'a Aabb>);
 type IsNew = Or<(Changed<TransparentOrder>, Changed<Aabb>)>;
+
+/// What comes into view in this frame is queued with its place of this frame: it is enough to follow what was in view in
+/// the last one.
+pub fn extract_moved(
+    mut moved: ResMut<Moved>,
+    transparent: Res<ViewSortedRenderPhases<Transparent3d>>,
+    transmissive: Res<ViewSortedRenderPhases<Transmissive3d>>,
+    meshes: Extract<Query<Place, HasMoved>>,
+) {
+    moved.0.clear();
+    if has_items(&transparent) || has_items(&transmissive) {
+        moved.0.extend(meshes.iter().map(|(entity, transform, aabb)| {
+            (entity.into(), aabb.map(|aabb| transform.transform_point(aabb.center.into())))
+        }));
+    }
+}
+
+fn has_items<I: DepthSorted>(phases: &ViewSortedRenderPhases<I>) -> bool {
+    phases.values().any(|phase| !phase.items.is_empty())
+}
 
 pub fn extract_orders(
     mut orders: ResMut<Orders>,

@@ -49,8 +49,9 @@ impl Plugin for TransparencyPlugin {
     fn build(&self, app: &mut App) {
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
+            .init_resource::<extract::Moved>()
             .init_resource::<extract::Orders>()
-            .add_systems(ExtractSchedule, (extract::extract_orders, extract::extract_depths))
+            .add_systems(ExtractSchedule, (extract::extract_moved, extract::extract_orders, extract::extract_depths))
             .configure_sets(
                 Render,
                 (TransparencySystems::Hold, TransparencySystems::Order).in_set(RenderSystems::PhaseSort),

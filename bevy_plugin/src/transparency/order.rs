@@ -8,6 +8,7 @@ use bevy::render::view::{ExtractedView, RetainedViewEntity};
 use radiosity::composite::{Draw, ViewDepth, resort};
 
 use super::TransparentDepth;
+use super::extract::Moved;
 use super::phase::DepthSorted;
 use super::place::Places;
 
@@ -42,6 +43,9 @@ impl<I> Default for LastOrder<I> {
 
 type ItemKey = (Entity, MainEntity);
 
+/// In the key of an item: it is a mesh.
+const MESH: Entity = Entity::PLACEHOLDER;
+
 pub fn hold<I: DepthSorted>(mut phases: ResMut<ViewSortedRenderPhases<I>>, mut held: ResMut<Held<I>>) {
     std::mem::swap(&mut *phases, &mut held.0);
 }
@@ -49,6 +53,7 @@ pub fn hold<I: DepthSorted>(mut phases: ResMut<ViewSortedRenderPhases<I>>, mut h
 pub fn order<I: DepthSorted>(
     views: Query<&ExtractedView>,
     places: Places,
+    moved: Res<Moved>,
     mut phases: ResMut<ViewSortedRenderPhases<I>>,
     mut held: ResMut<Held<I>>,
     mut last: ResMut<LastOrder<I>>,
@@ -61,8 +66,12 @@ pub fn order<I: DepthSorted>(
             continue;
         }
         match view_depth(view, &places) {
-            Some(depth) => last.order(phase, view, &depth, &places),
+            Some(depth) => {
+                last.follow(phase, view.retained_view_entity, &moved, &places);
+                last.order(phase, view, &depth, &places);
+            }
             None => {
+                last.views.remove(&view.retained_view_entity);
                 phase.recalculate_sort_keys(view);
                 phase.sort();
             }
@@ -71,6 +80,21 @@ pub fn order<I: DepthSorted>(
 }
 
 impl<I: DepthSorted> LastOrder<I> {
+    /// Tells the items of a view where they are now.
+    fn follow(&self, phase: &mut SortedRenderPhase<I>, view: RetainedViewEntity, moved: &Moved, places: &Places) {
+        if !self.views.contains_key(&view) {
+            // What has moved until now nobody has followed.
+            phase.items.iter_mut().filter(|(key, _)| key.0 == MESH).for_each(|((_, entity), item)| {
+                places.center(*entity).into_iter().for_each(|center| item.move_to(center));
+            });
+            return;
+        }
+        for &(entity, center) in &moved.0 {
+            let Some(item) = phase.items.get_mut(&(MESH, entity)) else { continue };
+            center.or_else(|| places.center(entity)).into_iter().for_each(|center| item.move_to(center));
+        }
+    }
+
     fn order(&mut self, phase: &mut SortedRenderPhase<I>, view: &ExtractedView, depth: &ViewDepth, places: &Places) {
         let before = self.views.entry(view.retained_view_entity).or_default();
         self.draws.clear();

@@ -26,14 +26,14 @@ pub struct Places<'w> {
 }
 
 impl Places<'_> {
-    /// The key of an item, from where its mesh is now; where it has none, from where it was when it was queued.
-    pub fn key(&self, entity: MainEntity, queued: TransparentSortingInfo3d, depth: &ViewDepth) -> DrawKey {
-        let TransparentSortingInfo3d::Sorted { mesh_center, depth_bias } = queued else {
+    /// The key of an item. Only those with an order of their own are looked up; what the others need stands in the item.
+    #[inline]
+    pub fn key(&self, entity: MainEntity, item: TransparentSortingInfo3d, depth: &ViewDepth) -> DrawKey {
+        let TransparentSortingInfo3d::Sorted { mesh_center, depth_bias } = item else {
             return DrawKey::new(i16::MIN, i16::MIN, f32::NEG_INFINITY);
         };
         let Some(&(order, half_size)) = self.orders.entities.get(&entity) else {
-            let center = self.mesh(entity).map_or(mesh_center, |(world, center)| world.transform_point3(center));
-            return DrawKey::new(0, 0, depth.of_point(center) + depth_bias);
+            return DrawKey::new(0, 0, depth.of_point(mesh_center) + depth_bias);
         };
         let TransparentOrder { layer, priority, bias, key } = order;
         let place = match self.mesh(entity) {
@@ -41,6 +41,11 @@ impl Places<'_> {
             Some((world, center)) => of_mesh(depth, &world, center, half_size, key),
         };
         DrawKey::new(layer, priority, place + depth_bias + bias)
+    }
+
+    /// The center of the bounding box of a mesh in the world.
+    pub fn center(&self, entity: MainEntity) -> Option<Vec3> {
+        self.mesh(entity).map(|(world, center)| world.transform_point3(center))
     }
 
     /// The transform of a mesh and the center of its bounding box.
