@@ -6,7 +6,10 @@ use bevy::prelude::*;
 use bevy::render::settings::{Backends, WgpuSettings};
 use bevy_radiosity::transparency::{TransparencyPlugin, TransparentDepth, TransparentKey, TransparentOrder};
 use radiosity::composite::{Samples, StraightRgba, back_to_front};
-use radiosity_tests::panes::{BACKGROUND, GREEN, Pane, RED, move_to, spawn, swap_two_panes, truth, wrong_pixels};
+use radiosity_tests::panes::{
+    self, BACKGROUND, GREEN, Pane, RED, differing, exact, move_to, spawn, swap_two_panes, triangles_of_panes,
+    wrong_pixels,
+};
 use radiosity_tests::render::Studio;
 
 fn studio() -> Option<Studio> {
@@ -20,10 +23,7 @@ fn plain_studio() -> Option<Studio> {
 }
 
 fn studio_with(msaa: Msaa) -> Option<Studio> {
-    let mut studio = Studio::with_settings(WgpuSettings { backends: Some(Backends::PRIMARY), ..default() }, msaa)?;
-    let [red, green, blue] = BACKGROUND;
-    studio.app.insert_resource(ClearColor(Color::linear_rgb(red, green, blue)));
-    Some(studio)
+    panes::studio(WgpuSettings { backends: Some(Backends::PRIMARY), ..default() }, msaa)
 }
 
 fn assert_exact(studio: &mut Studio) {
@@ -138,9 +138,8 @@ fn beside_order_independent_transparency() {
     spawn(&mut studio, GREEN, Transform::from_rotation(Quat::from_rotation_y(-0.5)));
     // Colors of its layers have nine bits, and alpha has eight.
     let seen = studio.picture(camera);
-    let truth = truth(&mut studio, camera, Samples::One);
-    let wrong = seen.iter().zip(&truth).filter(|(seen, truth)| !seen.abs_diff_eq(**truth, 0.01)).count();
-    assert_eq!(wrong, 0);
+    let triangles = triangles_of_panes(&mut studio);
+    assert_eq!(differing(&seen, &exact(&studio, camera, Samples::One, &triangles), 0.01), 0);
 }
 
 /// The middle of the picture is the composite of these panes, the first at the back.

@@ -5,8 +5,7 @@ use bevy::prelude::*;
 use bevy::render::render_resource::WgpuLimits;
 use bevy::render::settings::{Backends, WgpuSettings, WgpuSettingsPriority};
 use bevy_radiosity::transparency::TransparencyPlugin;
-use radiosity_tests::panes::{BACKGROUND, swap_two_panes};
-use radiosity_tests::render::Studio;
+use radiosity_tests::panes::{self, swap_two_panes};
 
 #[test]
 fn moving_pane_changes_places() {
@@ -16,8 +15,7 @@ fn moving_pane_changes_places() {
         limits: WgpuLimits::downlevel_webgl2_defaults(),
         ..default()
     };
-    let Some(mut studio) = Studio::with_settings(settings, Msaa::Off) else { return };
-    let [red, green, blue] = BACKGROUND;
-    studio.app.insert_resource(ClearColor(Color::linear_rgb(red, green, blue))).add_plugins(TransparencyPlugin);
+    let Some(mut studio) = panes::studio(settings, Msaa::Off) else { return };
+    studio.app.add_plugins(TransparencyPlugin);
     assert_eq!(swap_two_panes(&mut studio), [0, 0]);
 }

@@ -2,12 +2,13 @@
 //! which the order of arrival does not count.
 
 use bevy::prelude::*;
+use bevy::render::settings::WgpuSettings;
 use radiosity::composite::{Framebuffer, Layers, Pixel, PremultipliedRgba, Samples, StraightRgba};
 
 use crate::render::{SIDE, Studio};
 
 /// What the main texture in half precision loses, and the blending of many layers in it.
-const CLOSE: f32 = 0.004;
+pub const CLOSE: f32 = 0.004;
 
 /// What stands behind all panes.
 pub const BACKGROUND: [f32; 3] = [0.2, 0.3, 0.4];
@@ -62,13 +63,30 @@ pub fn move_to(studio: &mut Studio, entity: Entity, place: Vec3) {
     studio.app.world_mut().get_mut::<Transform>(entity).expect("it has a transform").translation = place;
 }
 
-/// What the panes of the world look like from a camera, each pixel a list of layers sorted by depth.
+/// A triangle in the world and its color.
+pub type ColoredTriangle = ([Vec3; 3], StraightRgba);
+
+/// The triangles of all panes.
+pub fn triangles_of_panes(studio: &mut Studio) -> Vec<ColoredTriangle> {
+    let world = studio.app.world_mut();
+    let mut panes = world.query::<(&Pane, &GlobalTransform)>();
+    let triangles = panes.iter(world).flat_map(|(pane, place)| {
+        let half = pane.size / 2.0;
+        let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+        let corners = corners.map(|[x, y]| place.transform_point(vec3(x, y, 0.0)));
+        let color = StraightRgba { rgb: pane.rgb, alpha: pane.alpha };
+        [[0, 1, 2], [0, 2, 3]].map(|triangle| (triangle.map(|corner: usize| corners[corner]), color))
+    });
+    triangles.collect()
+}
+
+/// What triangles look like from a camera before the background, each pixel a list of layers sorted by depth.
 ///
 /// # Panics
 ///
 /// Where there is no such camera.
-pub fn truth(studio: &mut Studio, camera: Entity, samples: Samples) -> Vec<Vec3> {
-    let world = studio.app.world_mut();
+pub fn exact(studio: &Studio, camera: Entity, samples: Samples, triangles: &[ColoredTriangle]) -> Vec<Vec3> {
+    let world = studio.app.world();
     let clip_from_view = world.get::<Camera>(camera).expect("a camera").clip_from_view();
     let view_from_world = world.get::<GlobalTransform>(camera).expect("a camera").affine().inverse();
     let clip_from_world = clip_from_view * Mat4::from(view_from_world);
@@ -78,15 +96,8 @@ pub fn truth(studio: &mut Studio, camera: Entity, samples: Samples) -> Vec<Vec3>
     };
     let mut pixels = vec![Layers::<16>::EMPTY; (SIDE * SIDE * count) as usize];
     let mut frame = Framebuffer::new([SIDE; 2], samples, &mut pixels).expect("as many as the size asks for");
-    for (pane, place) in world.query::<(&Pane, &GlobalTransform)>().iter(world) {
-        let half = pane.size / 2.0;
-        let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
-        let corners =
-            corners.map(|[x, y]| clip_from_world * place.affine().transform_point3(vec3(x, y, 0.0)).extend(1.0));
-        let color = StraightRgba { rgb: pane.rgb, alpha: pane.alpha }.premultiplied();
-        for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
-            frame.draw(&[corners[a], corners[b], corners[c]], |_| color);
-        }
+    for (corners, color) in triangles {
+        frame.draw(&corners.map(|corner| clip_from_world * corner.extend(1.0)), |_| color.premultiplied());
     }
     let mut picture = vec![PremultipliedRgba::TRANSPARENT; (SIDE * SIDE) as usize];
     frame.resolve(&mut picture).expect("one for each pixel");
@@ -94,15 +105,32 @@ pub fn truth(studio: &mut Studio, camera: Entity, samples: Samples) -> Vec<Vec3>
     picture.iter().map(|&color| Vec4::from_array(color.over(background).to_array()).truncate()).collect()
 }
 
-/// How many pixels are not what they should be.
+/// In how many pixels a picture is not what it should be.
+///
+/// # Panics
+///
+/// Where the picture was not read back, or shows nothing.
+pub fn differing(seen: &[Vec3], truth: &[Vec3], tolerance: f32) -> usize {
+    assert_eq!(seen.len(), truth.len(), "the picture was read back");
+    assert!(truth.iter().any(|pixel| pixel.distance(Vec3::from(BACKGROUND)) > 0.1), "something is in view");
+    seen.iter().zip(truth).filter(|(seen, truth)| !seen.abs_diff_eq(**truth, tolerance)).count()
+}
+
+/// How many pixels of panes are not what they should be.
 ///
 /// # Panics
 ///
 /// Where no pane is in view.
 pub fn wrong_pixels(studio: &mut Studio, camera: Entity, samples: Samples) -> usize {
     let seen = studio.picture(camera);
-    let truth = truth(studio, camera, samples);
-    assert_eq!(seen.len(), truth.len(), "the picture was read back");
-    assert!(truth.iter().any(|pixel| pixel.distance(Vec3::from(BACKGROUND)) > 0.1), "panes are in view");
-    seen.iter().zip(&truth).filter(|(seen, truth)| !seen.abs_diff_eq(**truth, CLOSE)).count()
+    let triangles = triangles_of_panes(studio);
+    differing(&seen, &exact(studio, camera, samples, &triangles), CLOSE)
+}
+
+/// A studio with the background behind it; none where there is no GPU.
+pub fn studio(settings: WgpuSettings, msaa: Msaa) -> Option<Studio> {
+    let mut studio = Studio::with_settings(settings, msaa)?;
+    let [red, green, blue] = BACKGROUND;
+    studio.app.insert_resource(ClearColor(Color::linear_rgb(red, green, blue)));
+    Some(studio)
 }

@@ -5,6 +5,7 @@
 //! | a transparent mesh moves | it is drawn where it stood in the order when it came into view (bevyengine/bevy#24826) | where it stands now |
 //! | the camera turns | depth is the distance from the camera's plane: things change places | so too, or [`TransparentDepth::Radial`]: they do not |
 //! | two things are equally far | they flicker when rounding favors now one and now the other (bevyengine/bevy#10243) | they stay as they were |
+//! | a large mesh covers itself | its triangles are drawn as they stand | [`SortedTriangles`] sorts them |
 //! | one must be drawn before the other, wherever they are | nothing but `depth_bias` | [`TransparentOrder`] |
 //!
 //! It holds for everything in the phases `Transparent3d` and `Transmissive3d`: standard and custom materials, particles,
@@ -20,6 +21,7 @@ mod extract;
 mod order;
 mod phase;
 mod place;
+mod triangles;
 
 use bevy::core_pipeline::core_3d::Transparent3d;
 use bevy::pbr::Transmissive3d;
@@ -28,6 +30,8 @@ use bevy::render::render_phase::sort_phase_system;
 use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
 
 pub use components::{TransparentDepth, TransparentKey, TransparentOrder};
+
+pub use triangles::SortedTriangles;
 
 use order::{Held, LastOrder, hold, order};
 use phase::DepthSorted;
@@ -47,6 +51,7 @@ pub enum TransparencySystems {
 
 impl Plugin for TransparencyPlugin {
     fn build(&self, app: &mut App) {
+        app.add_plugins(triangles::plugin);
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
             .init_resource::<extract::Moved>()
