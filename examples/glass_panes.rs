@@ -115,7 +115,7 @@ fn spawn_cameras(mut commands: Commands, picture: Option<Res<Picture>>) {
     let ambient = AmbientLight { brightness: 300.0, ..default() };
     for (order, depth) in [(0, TransparentDepth::AsQueued), (1, TransparentDepth::Radial)] {
         // The first one has cleared all of the picture.
-        let clear_color = [ClearColorConfig::Default, ClearColorConfig::None][order].clone();
+        let clear_color = [ClearColorConfig::Default, ClearColorConfig::None][order];
         let camera = Camera { order: order as isize, clear_color, ..default() };
         let mut camera =
             commands.spawn((Camera3d::default(), camera, depth, place, ambient.clone(), Rider, ChildOf(head)));

@@ -8,6 +8,7 @@ use bevy::pbr::Lightmap;
 use bevy::prelude::*;
 use bevy_radiosity::RadiosityPlugins;
 use bevy_radiosity::prelude::*;
+use radiosity::composite::StraightRgba;
 use radiosity_tests::render::Studio;
 
 /// Where the light is, above the middle of the wall, in meters.
@@ -96,6 +97,34 @@ fn spot_light() {
 #[test]
 fn directional_light() {
     assert_light_is_the_same_baked(DirectionalLight { illuminance: 1_000.0, color: warm(), ..default() });
+}
+
+/// A lightmap on glass: the light on it and what is seen through it, composed as the core does.
+#[test]
+fn glass_with_a_lightmap() {
+    let Some(mut studio) = studio() else { return };
+    let behind = [0.2, 0.3, 0.4];
+    studio.app.insert_resource(ClearColor(Color::linear_rgb(behind[0], behind[1], behind[2])));
+    let light = PointLight { intensity: 20_000.0, color: warm(), ..default() };
+    let light = studio.app.world_mut().spawn((Baked::default(), light, Transform::from_xyz(0.0, 0.0, HEIGHT))).id();
+    let opaque = studio.center();
+    let mut materials = studio.app.world_mut().resource_mut::<Assets<StandardMaterial>>();
+    let glass: Vec<_> = materials.ids().collect();
+    for id in glass {
+        let mut material = materials.get_mut(id).unwrap();
+        material.alpha_mode = AlphaMode::Blend;
+        material.base_color.set_alpha(0.35);
+    }
+    let pane = StraightRgba { rgb: opaque.to_array(), alpha: 0.35 }.premultiplied();
+    let composed = pane.over(StraightRgba { rgb: behind, alpha: 1.0 }.premultiplied()).to_array();
+    let composed = Vec4::from_array(composed).truncate();
+    assert_same(studio.center(), composed);
+    bake(&mut studio.app);
+    assert_same(studio.center(), composed);
+    studio.app.world_mut().despawn(light);
+    assert_same(studio.center(), composed);
+    let lightmaps = studio.app.world_mut().query::<&Lightmap>().iter(studio.app.world()).count();
+    assert_eq!(lightmaps, 1);
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn plain_bevy_freezes_the_order() {
 
 /// Colors, sizes and depths without a pattern, from a low-discrepancy sequence.
 fn pane(k: usize) -> (Pane, Vec3) {
-    let [a, b, c] = [0.754_877_67, 0.569_840_3, 0.430_159_7].map(|step: f32| (0.5 + step * (k + 1) as f32).fract());
+    let [a, b, c] = [0.754_877_7, 0.569_840_3, 0.430_159_7].map(|step: f32| (0.5 + step * (k + 1) as f32).fract());
     let pane = Pane { rgb: [a, b, c], alpha: 0.3 + 0.5 * b, size: 0.4 + 0.5 * c };
     (pane, vec3(a - 0.5, b - 0.5, 0.8 * (c - 0.5)))
 }

@@ -8,6 +8,7 @@ use bevy::pbr::Lightmap;
 use bevy::prelude::*;
 
 use crate::lightmap_guard::HeldBack;
+use crate::stand_in::given_mesh;
 
 /// Which bake an entity has its light from.
 #[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +64,7 @@ pub(crate) fn attach_lightmap(
     lightmap: Lightmap,
 ) {
     let Ok(mut entity) = world.get_entity_mut(entity) else { return };
-    let Some(current) = entity.get::<Mesh3d>().map(|mesh| mesh.0.clone()) else { return };
+    let Some(current) = entity.get().map(|mesh| given_mesh(mesh, entity.get()).clone()) else { return };
     let baked_mesh = mesh.clone();
     let lit = match entity.get::<Lit>() {
         Some(before) => Lit { origin, baked_mesh, ..before.clone() },
@@ -77,7 +78,7 @@ pub(crate) fn attach_lightmap(
 
 /// The mesh of an entity, that before all bakes if there was one.
 pub(crate) fn mesh_before(world: &World, entity: Entity) -> Option<&Handle<Mesh>> {
-    let Mesh3d(shown) = world.get(entity)?;
+    let shown = given_mesh(world.get(entity)?, world.get(entity));
     let lit = world.get::<Lit>(entity).filter(|lit| lit.baked_mesh == *shown);
     Some(lit.map_or(shown, |lit| &lit.mesh))
 }
@@ -151,7 +152,8 @@ fn restore_mesh(world: &mut World, entity: Entity, before: Lit) {
         Some(lightmap) => entity.insert(lightmap),
         None => entity.remove::<Lightmap>(),
     };
-    if entity.get::<Mesh3d>().is_some_and(|mesh| mesh.0 == before.baked_mesh && mesh.0 != before.mesh) {
+    let shown = entity.get().map(|mesh| given_mesh(mesh, entity.get()));
+    if shown == Some(&before.baked_mesh) && before.baked_mesh != before.mesh {
         entity.insert(Mesh3d(before.mesh));
     }
 }

@@ -64,6 +64,8 @@ pub mod gltf;
 
 pub mod convert;
 
+mod stand_in;
+
 #[cfg(feature = "render")]
 mod lightmap_mesh;
 

@@ -20,6 +20,7 @@ use super::components::{AngularDiameter, Baked, NotBaked};
 use crate::convert;
 use crate::gltf::GltfSource;
 use crate::spline::SplineMesh;
+use crate::stand_in::given_mesh;
 
 /// What the sun looks like from Earth, in radians.
 const SUN_DIAMETER: f32 = 0.53 * std::f32::consts::PI / 180.0;
@@ -107,9 +108,8 @@ impl<'w> Collector<'w> {
     }
 
     fn add_surface(&mut self, entity: EntityRef<'w>, density: f32) {
-        let (Some(Mesh3d(handle)), Some(transform)) = (entity.get::<Mesh3d>(), entity.get::<GlobalTransform>()) else {
-            return;
-        };
+        let (Some(mesh), Some(transform)) = (entity.get::<Mesh3d>(), entity.get::<GlobalTransform>()) else { return };
+        let handle = given_mesh(mesh, entity.get());
         let name = surface_name(self.world, entity);
         if !transform.affine().is_finite() {
             return self.note("is left out, because its transform is not finite; correct its `Transform`", name);

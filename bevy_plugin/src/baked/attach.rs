@@ -13,6 +13,7 @@ use crate::attach::{BakeOrigin, BakedLight, Lit, attach_lightmap, detach, dim_am
 use crate::bake::BakeId;
 use crate::gltf::{GltfLightSource, GltfSource};
 use crate::lightmap_mesh::{fits, with_lightmap_uv};
+use crate::stand_in::given_mesh;
 
 /// Lights entities with a saved bake: those of a glTF scene that are below this entity, by their glTF indices, and
 /// those with a `BakeId` wherever they are.
@@ -145,7 +146,8 @@ fn attach_surface(
     surface: &SurfaceEntry,
     split_meshes: &mut SplitMeshes,
 ) {
-    let Some(mut mesh) = world.get::<Mesh3d>(entity).map(|mesh| mesh.0.clone()) else { return };
+    let mesh = world.get(entity).map(|mesh| given_mesh(mesh, world.get(entity)).clone());
+    let Some(mut mesh) = mesh else { return };
     if world.get::<Lit>(entity).is_some() {
         return;
     }

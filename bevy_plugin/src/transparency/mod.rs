@@ -6,6 +6,7 @@
 //! | the camera turns | depth is the distance from the camera's plane: things change places | so too, or [`TransparentDepth::Radial`]: they do not |
 //! | two things are equally far | they flicker when rounding favors now one and now the other (bevyengine/bevy#10243) | they stay as they were |
 //! | a large mesh covers itself | its triangles are drawn as they stand | [`SortedTriangles`] sorts them |
+//! | flat things run through each other, or overlap in a cycle | no order is right | [`SplitPane`] cuts them |
 //! | one must be drawn before the other, wherever they are | nothing but `depth_bias` | [`TransparentOrder`] |
 //!
 //! It holds for everything in the phases `Transparent3d` and `Transmissive3d`: standard and custom materials, particles,
@@ -14,13 +15,16 @@
 //! multiplied and premultiplied materials) the order counts.
 //!
 //! What no order of whole meshes can cure: meshes that pass through each other, that overlap in a cycle, or that surround
-//! each other. The example `overlap` shows it.
+//! each other. The example `overlap` shows it. [`SplitPane`] and [`SortedTriangles`] cure it for panes and within a mesh;
+//! large curved meshes that pass through each other need order independent transparency.
 
 mod components;
 mod extract;
 mod order;
+mod panes;
 mod phase;
 mod place;
+mod triangle_list;
 mod triangles;
 
 use bevy::core_pipeline::core_3d::Transparent3d;
@@ -31,6 +35,7 @@ use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
 
 pub use components::{TransparentDepth, TransparentKey, TransparentOrder};
 
+pub use panes::{PieceComponents, SplitPane};
 pub use triangles::SortedTriangles;
 
 use order::{Held, LastOrder, hold, order};
@@ -51,12 +56,16 @@ pub enum TransparencySystems {
 
 impl Plugin for TransparencyPlugin {
     fn build(&self, app: &mut App) {
-        app.add_plugins(triangles::plugin);
+        app.add_plugins((triangles::plugin, panes::plugin));
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
             .init_resource::<extract::Moved>()
             .init_resource::<extract::Orders>()
-            .add_systems(ExtractSchedule, (extract::extract_moved, extract::extract_orders, extract::extract_depths))
+            .init_resource::<panes::ExtractedPanes>()
+            .add_systems(
+                ExtractSchedule,
+                (extract::extract_moved, extract::extract_orders, extract::extract_depths, panes::extract_panes),
+            )
             .configure_sets(
                 Render,
                 (TransparencySystems::Hold, TransparencySystems::Order).in_set(RenderSystems::PhaseSort),

@@ -9,6 +9,7 @@ use radiosity::composite::{Draw, ViewDepth, resort};
 
 use super::TransparentDepth;
 use super::extract::Moved;
+use super::panes::viewpoint;
 use super::phase::DepthSorted;
 use super::place::Places;
 
@@ -107,6 +108,10 @@ impl<I: DepthSorted> LastOrder<I> {
         self.draws.extend(keyed);
         self.scratch.resize(self.draws.len(), self.draws[0]);
         let tolerance = tolerance(view, &self.draws);
+        if let Some(panes) = &places.panes.0 {
+            let piece = |index| panes.pieces.get(&phase.items.get_index(index as usize)?.0.1).copied();
+            panes.deal(&mut self.draws, piece, viewpoint(view), 2.0 * tolerance);
+        }
         resort(&mut self.draws, &mut self.scratch, tolerance);
         rearrange(phase, &self.draws);
         before.clear();

@@ -12,6 +12,7 @@ use bevy::render::sync_world::MainEntity;
 use radiosity::composite::{Bounds, BoxPoint, DrawKey, ViewDepth};
 
 use super::extract::Orders;
+use super::panes::ExtractedPanes;
 use super::{TransparentKey, TransparentOrder};
 
 type InstanceBuffers = BatchedInstanceBuffers<MeshUniform, MeshInputUniform>;
@@ -23,6 +24,7 @@ pub struct Places<'w> {
     buffers: Option<Res<'w, InstanceBuffers>>,
     meshes: Res<'w, RenderAssets<RenderMesh>>,
     pub orders: Res<'w, Orders>,
+    pub panes: Res<'w, ExtractedPanes>,
 }
 
 impl Places<'_> {

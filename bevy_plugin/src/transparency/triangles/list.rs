@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use bevy::asset::RenderAssetUsages;
 use bevy::math::Affine3A;
-use bevy::mesh::{Indices, PrimitiveTopology, VertexAttributeValues};
+use bevy::mesh::Indices;
 use bevy::prelude::*;
 use radiosity::composite::{Draw, DrawKey, ViewDepth, resort};
+
+use super::super::triangle_list::{IndexWidth, TriangleList};
 
 /// The triangles of a mesh in the order of the asset.
 #[derive(Clone)]
@@ -19,12 +21,6 @@ struct List {
     width: IndexWidth,
 }
 
-#[derive(Clone, Copy)]
-enum IndexWidth {
-    U16,
-    U32,
-}
-
 /// Triangles from far to near.
 #[derive(Default)]
 pub struct Order(Vec<Draw>);
@@ -34,29 +30,11 @@ impl Triangles {
     ///
     /// Where they cannot be sorted: why, and what to do.
     pub fn of(mesh: &Mesh) -> Result<Self, &'static str> {
-        if mesh.primitive_topology() != PrimitiveTopology::TriangleList {
-            return Err("they are not a list; make the mesh with PrimitiveTopology::TriangleList");
-        }
-        let positions = match mesh.try_attribute_option(Mesh::ATTRIBUTE_POSITION) {
-            Ok(Some(VertexAttributeValues::Float32x3(positions))) => positions,
-            Ok(_) => return Err("the mesh has no positions of three floats"),
-            Err(_) => return Err("the mesh lives on the GPU alone; give it RenderAssetUsages::default()"),
-        };
-        let (indices, width): (Vec<u32>, _) = match mesh.try_indices_option() {
-            Ok(Some(Indices::U16(indices))) => (indices.iter().copied().map(u32::from).collect(), IndexWidth::U16),
-            Ok(Some(Indices::U32(indices))) => (indices.clone(), IndexWidth::U32),
-            Ok(None) => ((0..positions.len() as u32).collect(), IndexWidth::U32),
-            Err(_) => return Err("the mesh lives on the GPU alone; give it RenderAssetUsages::default()"),
-        };
-        if indices.iter().any(|&index| index as usize >= positions.len()) {
-            return Err("an index of the mesh points past its vertices");
-        }
-        let corners = indices.as_chunks::<3>().0.to_vec();
-        let centroid =
-            |corners: &[u32; 3]| corners.iter().map(|&i| Vec3::from(positions[i as usize])).sum::<Vec3>() / 3.0;
-        let centroids: Vec<Vec3> = corners.iter().map(centroid).collect();
+        let list = TriangleList::of(mesh)?;
+        let centroid = |&corners: &[u32; 3]| list.points(corners).into_iter().sum::<Vec3>() / 3.0;
+        let centroids: Vec<Vec3> = list.corners.iter().map(centroid).collect();
         let center = centroids.iter().sum::<Vec3>() / centroids.len().max(1) as f32;
-        Ok(Self(Arc::new(List { corners, centroids, center, width })))
+        Ok(Self(Arc::new(List { corners: list.corners, centroids, center, width: list.width })))
     }
 
     pub fn len(&self) -> usize {

@@ -17,6 +17,9 @@ use bevy::transform::TransformSystems;
 use list::{Order, Triangles};
 use view::{Cameras, LocalView};
 
+use super::panes::SplitPane;
+use crate::stand_in::{StandIn, given_mesh};
+
 /// Meshes with more triangles are sorted in the background, and show the order of before until that is done.
 const IN_BACKGROUND: usize = 10_000;
 
@@ -56,8 +59,6 @@ pub(super) fn plugin(app: &mut App) {
 /// What is known of the triangles of an entity.
 #[derive(Component)]
 struct Sorting {
-    source: Handle<Mesh>,
-    copy: Handle<Mesh>,
     triangles: Triangles,
     sorted_for: Option<LocalView>,
     work: Work,
@@ -68,44 +69,48 @@ enum Work {
     Running(Task<Order>),
 }
 
+type Given<'a> = (Entity, &'a mut Mesh3d, Option<&'a StandIn>, Has<Sorting>, Option<&'a Name>);
+/// Panes that are cut have triangles of their own.
+type ToSort = (With<SortedTriangles>, Without<SplitPane>);
+
 /// Takes a copy of each mesh that is new here, or that has changed.
 fn begin(
     mut commands: Commands,
-    mut sorted: Query<(Entity, &mut Mesh3d, Option<&Sorting>, Option<&Name>), With<SortedTriangles>>,
+    mut sorted: Query<Given, ToSort>,
     mut meshes: ResMut<Assets<Mesh>>,
     mut events: MessageReader<AssetEvent<Mesh>>,
     mut refused: Local<EntityHashMap<AssetId<Mesh>>>,
 ) {
     let modified: HashSet<AssetId<Mesh>> = events.read().filter_map(modified_id).collect();
     refused.retain(|entity, mesh| sorted.contains(*entity) && !modified.contains(mesh));
-    for (entity, mut mesh3d, sorting, name) in &mut sorted {
-        let source = match sorting {
-            Some(sorting) if sorting.copy != mesh3d.0 => mesh3d.0.clone(),
-            Some(sorting) if modified.contains(&sorting.source.id()) => sorting.source.clone(),
-            Some(_) => continue,
-            None => mesh3d.0.clone(),
-        };
-        if refused.get(&entity) == Some(&source.id()) {
+    for (entity, mut mesh3d, stand_in, is_sorted, name) in &mut sorted {
+        let given = given_mesh(&mesh3d, stand_in).clone();
+        let is_known = is_sorted && given != mesh3d.0;
+        if is_known && !modified.contains(&given.id()) {
             continue;
         }
-        let Some(mesh) = meshes.get(&source) else { continue };
+        if refused.get(&entity) == Some(&given.id()) {
+            continue;
+        }
+        let Some(mesh) = meshes.get(&given) else { continue };
         match Triangles::of(mesh).map(|triangles| (triangles.copy_of(mesh), triangles)) {
             Ok((copy, triangles)) => {
-                let copy = meshes.add(copy);
-                mesh3d.0 = copy.clone();
+                let drawn = meshes.add(copy);
+                mesh3d.0 = drawn.clone();
                 let work = Work::Done(Order::of(&triangles));
-                commands.entity(entity).insert(Sorting { source, copy, triangles, sorted_for: None, work });
+                let sorting = Sorting { triangles, sorted_for: None, work };
+                commands.entity(entity).insert((sorting, StandIn { given, drawn }));
             }
             Err(reason) => {
                 let name = name.map_or_else(|| entity.to_string(), Name::to_string);
                 warn!("the triangles of \"{name}\" stay in their order: {reason}");
-                refused.insert(entity, source.id());
+                refused.insert(entity, given.id());
             }
         }
     }
 }
 
-fn modified_id(event: &AssetEvent<Mesh>) -> Option<AssetId<Mesh>> {
+pub(super) fn modified_id(event: &AssetEvent<Mesh>) -> Option<AssetId<Mesh>> {
     match event {
         AssetEvent::Modified { id } => Some(*id),
         _ => None,
@@ -113,18 +118,18 @@ fn modified_id(event: &AssetEvent<Mesh>) -> Option<AssetId<Mesh>> {
 }
 
 fn sort(
-    mut sorted: Query<(&SortedTriangles, &GlobalTransform, &mut Sorting)>,
+    mut sorted: Query<(&SortedTriangles, &GlobalTransform, &StandIn, &mut Sorting)>,
     cameras: Cameras,
     mut meshes: ResMut<Assets<Mesh>>,
 ) {
-    for (settings, place, mut sorting) in &mut sorted {
-        let Sorting { copy, triangles, sorted_for, work, .. } = &mut *sorting;
+    for (settings, place, StandIn { drawn, .. }, mut sorting) in &mut sorted {
+        let Sorting { triangles, sorted_for, work } = &mut *sorting;
         let before = match work {
             Work::Done(order) => std::mem::take(order),
             Work::Running(task) => match check_ready(task) {
                 None => continue,
                 Some(order) => {
-                    order.write(triangles, copy, &mut meshes);
+                    order.write(triangles, drawn, &mut meshes);
                     order
                 }
             },
@@ -141,7 +146,7 @@ fn sort(
             }
             Some(view) => {
                 let order = before.sorted(triangles, &view.depth, &place.affine());
-                order.write(triangles, copy, &mut meshes);
+                order.write(triangles, drawn, &mut meshes);
                 *sorted_for = Some(view);
                 Work::Done(order)
             }
@@ -150,10 +155,9 @@ fn sort(
 }
 
 /// Whoever has another mesh by now keeps it.
-fn give_back(removed: On<Remove, SortedTriangles>, mut commands: Commands, mut sorted: Query<(&mut Mesh3d, &Sorting)>) {
-    let Ok((mut mesh3d, sorting)) = sorted.get_mut(removed.entity) else { return };
-    if mesh3d.0 == sorting.copy {
-        mesh3d.0 = sorting.source.clone();
+fn give_back(removed: On<Remove, SortedTriangles>, mut commands: Commands, mut sorted: Query<(&mut Mesh3d, &StandIn)>) {
+    if let Ok((mut mesh3d, stand_in)) = sorted.get_mut(removed.entity) {
+        mesh3d.0 = given_mesh(&mesh3d, Some(stand_in)).clone();
+        commands.entity(removed.entity).try_remove::<(Sorting, StandIn)>();
     }
-    commands.entity(removed.entity).try_remove::<Sorting>();
 }

@@ -31,9 +31,15 @@ impl DrawKey {
         f32::from_bits(if bits >> 31 == 1 { bits ^ 0x8000_0000 } else { !bits })
     }
 
-    /// Layer and priority: only within the same the depth counts.
+    /// The same layer and priority at another depth.
     #[inline]
-    pub(super) fn group(self) -> u64 {
+    pub fn at(self, depth: f32) -> Self {
+        Self(self.group() << 32 | u64::from(ordered(depth)))
+    }
+
+    /// Layer and priority in one number: only within the same the depth counts.
+    #[inline]
+    pub fn group(self) -> u64 {
         self.0 >> 32
     }
 
@@ -65,6 +71,7 @@ mod tests {
         }
         depths.iter().for_each(|&depth| assert_eq!(DrawKey::new(-7, 9, depth).depth(), depth));
         assert_eq!(DrawKey::new(0, 0, -0.0), DrawKey::new(0, 0, 0.0));
+        assert_eq!(DrawKey::new(3, -4, 7.0).at(-2.5), DrawKey::new(3, -4, -2.5));
         assert_eq!(DrawKey::new(0, 0, f32::NAN), DrawKey::new(0, 0, f32::NEG_INFINITY));
         assert_eq!(DrawKey::new(0, 0, -f32::NAN), DrawKey::new(0, 0, f32::NEG_INFINITY));
     }

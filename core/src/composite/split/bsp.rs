@@ -119,8 +119,18 @@ impl<const N: usize> BspTree<N> {
         self.nodes.is_empty()
     }
 
+    /// All pieces, in the order in which they were made.
+    pub fn pieces(&self) -> impl Iterator<Item = &Piece> {
+        self.nodes.iter().map(|node| &node.piece)
+    }
+
     /// All pieces such that none hides one that comes after it.
     pub fn back_to_front(&self, viewpoint: Viewpoint) -> impl Iterator<Item = &Piece> {
+        self.order(viewpoint).map(|number| &self.nodes[number].piece)
+    }
+
+    /// The same by their places in [`BspTree::pieces`].
+    pub fn order(&self, viewpoint: Viewpoint) -> impl Iterator<Item = usize> {
         let eye = viewpoint.homogeneous();
         let near = move |node: u32| usize::from(self.nodes[node as usize].piece.plane.height_of_eye(eye) >= 0.0);
         let farthest_below = move |mut node: u32| {
@@ -134,7 +144,8 @@ impl<const N: usize> BspTree<N> {
         let mut next = farthest_below(0);
         core::iter::from_fn(move || {
             let mut from = next;
-            let Node { piece, children, .. } = self.nodes.get(from as usize)?;
+            let number = from as usize;
+            let children = self.nodes.get(number)?.children;
             next = match children[near(from)] {
                 NONE => loop {
                     let parent = self.nodes[from as usize].parent;
@@ -145,7 +156,7 @@ impl<const N: usize> BspTree<N> {
                 },
                 child => farthest_below(child),
             };
-            Some(piece)
+            Some(number)
         })
     }
 }
