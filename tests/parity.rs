@@ -1,14 +1,13 @@
 //! A light that is baked and the same light in real time give the same pixel, within 1 % where light and view follow
 //! the normal of a matt surface. Each app renders a wall twice: lit in real time, then by the map without the light.
 
-use std::time::{Duration, Instant};
-
 use bevy::light::RectLight;
 use bevy::pbr::Lightmap;
 use bevy::prelude::*;
 use bevy_radiosity::RadiosityPlugins;
 use bevy_radiosity::prelude::*;
 use radiosity::composite::StraightRgba;
+use radiosity_tests::bake::bake;
 use radiosity_tests::render::Studio;
 
 /// Where the light is, above the middle of the wall, in meters.
@@ -33,27 +32,6 @@ fn matt(base_color: Color) -> StandardMaterial {
 
 fn warm() -> Color {
     Color::srgb(1.0, 0.85, 0.6)
-}
-
-#[derive(Resource, Default)]
-struct Outcome(Option<Result<(), String>>);
-
-/// Bakes everything and waits for the end.
-fn bake(app: &mut App) {
-    app.init_resource::<Outcome>()
-        .add_observer(|_: On<BakeDone>, mut outcome: ResMut<Outcome>| outcome.0 = Some(Ok(())))
-        .add_observer(|failed: On<BakeFailed>, mut outcome: ResMut<Outcome>| {
-            outcome.0 = Some(Err(failed.error.to_string()));
-        });
-    let settings = BakeSettings { resolution: Resolution::TexelsPerMeter(16.0), ..default() };
-    app.world_mut().trigger(StartBake { settings });
-    let start = Instant::now();
-    while app.world().resource::<Outcome>().0.is_none() {
-        assert!(start.elapsed() < Duration::from_secs(300), "the bake does not end");
-        app.update();
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    app.world_mut().resource_mut::<Outcome>().0.take().unwrap().unwrap();
 }
 
 fn assert_same(baked: Vec3, real_time: Vec3) {

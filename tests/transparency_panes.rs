@@ -3,10 +3,13 @@
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 use bevy::camera::visibility::RenderLayers;
+use bevy::pbr::Lightmap;
 use bevy::prelude::*;
 use bevy::render::settings::{Backends, WgpuSettings};
-use bevy_radiosity::transparency::{SplitPane, TransparencyPlugin, TransparentOrder};
+use bevy_radiosity::prelude::*;
+use bevy_radiosity::transparency::TransparencyPlugin;
 use radiosity::composite::Samples;
+use radiosity_tests::bake::bake;
 use radiosity_tests::panes::{self, GREEN, Pane, RED, move_to, spawn, wrong_pixels};
 use radiosity_tests::render::Studio;
 
@@ -135,6 +138,42 @@ fn pieces_follow_their_panes() {
     studio.app.update();
     assert_eq!(studio.app.world().get::<Mesh3d>(red), Some(&mesh));
     assert!(studio.app.world().get::<Children>(red).is_none());
+}
+
+/// A bake sees whole panes; their pieces show its light.
+#[test]
+fn baked_panes_are_cut() {
+    let Some(mut studio) = panes::studio(WgpuSettings { backends: Some(Backends::PRIMARY), ..default() }, Msaa::Off)
+    else {
+        return;
+    };
+    studio.app.add_plugins(RadiosityPlugins);
+    let light = PointLight { intensity: 20_000.0, ..default() };
+    studio.app.world_mut().spawn((Baked::default(), light, Transform::from_xyz(0.0, 0.5, 1.5)));
+    let panes = [0.6, -0.5].map(|angle| {
+        let mesh = Mesh::from(Rectangle::new(1.0, 1.0));
+        let world = studio.app.world_mut();
+        let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh);
+        let glass = StandardMaterial { alpha_mode: AlphaMode::Blend, ..Color::srgba(0.8, 0.5, 0.3, 0.5).into() };
+        let glass = world.resource_mut::<Assets<StandardMaterial>>().add(glass);
+        let place = Transform::from_rotation(Quat::from_rotation_y(angle));
+        world.spawn((Baked::default(), SplitPane, Mesh3d(mesh), MeshMaterial3d(glass), place)).id()
+    });
+    let camera = studio.camera;
+    drop(studio.picture(camera));
+    bake(&mut studio.app);
+    let lit = studio.picture(camera);
+    assert!(lit.iter().any(|pixel| pixel.distance(Vec3::from(panes::BACKGROUND)) > 0.05), "the light shows");
+    let world = studio.app.world();
+    let lightmaps = panes.map(|pane| world.get::<Lightmap>(pane).expect("each pane has one").clone());
+    for (pane, lightmap) in panes.into_iter().zip(lightmaps) {
+        for &piece in world.get::<Children>(pane).expect("it is cut") {
+            let of_piece = world.get::<Lightmap>(piece).expect("each piece has one");
+            assert_eq!((&of_piece.image, of_piece.uv_rect), (&lightmap.image, lightmap.uv_rect));
+            let mesh = world.resource::<Assets<Mesh>>().get(&world.get::<Mesh3d>(piece).unwrap().0).unwrap();
+            assert!(mesh.contains_attribute(Mesh::ATTRIBUTE_UV_1));
+        }
+    }
 }
 
 /// More panes than there is room for are drawn whole, and nothing is lost.

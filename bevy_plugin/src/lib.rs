@@ -30,6 +30,8 @@
 //! | [`LightsAlong`](spline::LightsAlong) | lights at equal distances on a curve |
 //! | `TransparentOrder` | when a transparent entity is drawn: layer, priority, bias, which of its points counts |
 //! | `TransparentDepth` | on a camera: what counts as far |
+//! | `SortedTriangles` | the triangles of its transparent mesh are drawn from far to near |
+//! | `SplitPane` | its mesh is cut where it runs through that of another |
 //!
 //! # What to say and hear
 //!

@@ -17,4 +17,4 @@ pub use crate::spline::{
     TravelAlong,
 };
 #[cfg(feature = "render")]
-pub use crate::transparency::{TransparentDepth, TransparentKey, TransparentOrder};
+pub use crate::transparency::{SortedTriangles, SplitPane, TransparentDepth, TransparentKey, TransparentOrder};

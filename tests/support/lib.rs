@@ -1,5 +1,6 @@
 //! Helpers shared by the tests of the workspace.
 
+pub mod bake;
 pub mod glb;
 pub mod panes;
 pub mod render;

@@ -4,6 +4,7 @@ use bevy::mesh::MeshBuilder;
 
 use super::*;
 use crate::gltf::GltfMaterial3d;
+use crate::stand_in::StandIn;
 
 /// An app with the assets of a scene, no renderer, and transforms that are propagated.
 fn app() -> App {
@@ -66,6 +67,20 @@ fn what_is_baked_and_what_is_not() {
 }
 
 /// Nothing is lost without a word.
+/// Whatever is drawn in its place; but what the app has given it since counts.
+#[test]
+fn the_mesh_that_was_given_is_baked() {
+    let mut app = app();
+    let ((_, given), (drawn, _), (newer, _)) = (cube(&mut app), cube(&mut app), cube(&mut app));
+    let stand_in = StandIn { given: given.clone(), drawn: drawn.0.clone() };
+    let material = paint(&mut app, GltfMaterial::default());
+    let object = (Baked::default(), material, Transform::default(), Visibility::Visible, drawn, stand_in);
+    let object = app.world_mut().spawn(object).id();
+    assert_eq!(collected(&mut app).mesh_handles, [given]);
+    app.world_mut().entity_mut(object).insert(newer.clone());
+    assert_eq!(collected(&mut app).mesh_handles, [newer.0]);
+}
+
 #[test]
 fn what_cannot_be_baked_is_named() {
     let mut app = app();

@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn attributes_follow_the_cut() {
         let corners = [Vec3::new(1.0, 0.0, 2.0), Vec3::new(4.0, 1.0, 2.5), Vec3::new(0.0, 3.0, -1.0)];
-        let positions: Vec<[f32; 3]> = corners.map(Vec3::to_array).to_vec();
+        let positions: Vec<[f32; 3]> = corners.map(|corner| corner.to_array()).to_vec();
         let mesh = Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::default())
             .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions.clone())
             .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, positions)
