@@ -77,8 +77,7 @@ fn three_panes_in_a_cycle() {
             let turn = Quat::from_rotation_z(TAU * k as f32 / 3.0);
             let tilt = Quat::from_rotation_y(0.5);
             let place = Transform::from_translation(turn * vec3(0.0, -0.25, 0.0)).with_rotation(turn * tilt);
-            let pane = spawn(&mut studio, Pane { size: 1.0, ..pane }, place.with_scale(vec3(1.0, 0.4, 1.0)));
-            pane
+            spawn(&mut studio, Pane { size: 1.0, ..pane }, place.with_scale(vec3(1.0, 0.4, 1.0)))
         })
         .collect();
     let whole = look_from(&mut studio, EYES[0]);

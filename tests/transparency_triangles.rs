@@ -106,7 +106,7 @@ fn many_triangles() {
 /// The squares, and more triangles than are sorted at once, far from what the camera sees.
 fn crowd() -> Mesh {
     let mut mesh = mesh(SQUARES);
-    let mut away = Mesh::from(Sphere::new(1.0).mesh().uv(128, 64)).translated_by(Vec3::new(0.0, 0.0, 50.0));
+    let mut away = Sphere::new(1.0).mesh().uv(128, 64).translated_by(Vec3::new(0.0, 0.0, 50.0));
     let colors = vec![[1.0_f32; 4]; away.count_vertices()];
     away.insert_attribute(Mesh::ATTRIBUTE_COLOR, colors);
     away.remove_attribute(Mesh::ATTRIBUTE_UV_0);
