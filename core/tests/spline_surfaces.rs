@@ -136,6 +136,123 @@ fn grids_are_the_same_points() {
     assert!(wavy().surface().sample(&[], &vs, &mut []).is_ok());
 }
 
+/// A knot that was put in comes out again; another one leaves a surface as far away as is said.
+#[test]
+fn knots_are_removed() {
+    for direction in [Direction::U, Direction::V] {
+        let (surface, knot) = (rational(), 0.55);
+        let more = surface.with_knots(direction, &[knot]).unwrap();
+        let (less, distance) = more.without_knot(direction, knot).unwrap();
+        assert!(distance < 1e-14, "{distance}");
+        for [u, v] in places(&surface.surface()) {
+            assert!((surface.surface().point(u, v) - less.surface().point(u, v)).length() < 1e-13);
+        }
+    }
+    let surface = wavy();
+    let (less, distance) = surface.without_knot(Direction::U, 0.4).unwrap();
+    let apart = places(&surface.surface()).into_iter();
+    let apart = apart.map(|[u, v]| (surface.surface().point(u, v) - less.surface().point(u, v)).length());
+    let worst = apart.fold(0.0, f64::max);
+    assert!(0.1 * distance < worst && worst <= distance, "{worst} of {distance}");
+    assert!(matches!(surface.without_knot(Direction::U, 0.5), Err(SplineError::Parameter { .. })));
+}
+
+/// Corners, tangents and twists make a patch and come back; it has them as derivatives.
+#[test]
+fn hermite_patches() {
+    let corner = |k: usize| HermiteCorner {
+        point: DVec3::new((k % 2) as f64, (k / 2) as f64, 0.0) + 0.2 * anywhere(k),
+        du: DVec3::X + anywhere(k + 4),
+        dv: DVec3::Y + anywhere(k + 8),
+        duv: anywhere(k + 12),
+    };
+    let corners = [[corner(0), corner(1)], [corner(2), corner(3)]];
+    let points = hermite_patch(corners);
+    let patch = BezierSurface::new(&points, 4).unwrap();
+    let back = hermite_corners(&points);
+    for (j, i) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        let (at, is) = (patch.at(i as f64, j as f64), corners[j][i]);
+        let of_patch = HermiteCorner { point: at.point, du: at.du, dv: at.dv, duv: at.duv };
+        for found in [of_patch, back[j][i]] {
+            let pairs = [(found.point, is.point), (found.du, is.du), (found.dv, is.dv), (found.duv, is.duv)];
+            assert!(pairs.into_iter().all(|(a, b)| (a - b).length() < 1e-13), "{found:?} {is:?}");
+        }
+    }
+}
+
+/// The nearest surface to points of a surface is that one; to what is left over from a fit, it is zero.
+#[test]
+fn nearest_surfaces_to_points() {
+    let surface = wavy();
+    let ([us, vs], [p, q]) = ([12, 9].map(|count| (0..count).map(move |k| k as f64 / (count - 1) as f64)), [3, 2]);
+    let (us, vs): (Vec<f64>, Vec<f64>) = (us.collect(), vs.map(|v| 2.0 * v).collect());
+    let knots = || [Direction::U, Direction::V].map(|d| surface.surface().knots(d).knots().to_vec());
+    let mut points = vec![DVec3::ZERO; us.len() * vs.len()];
+    surface.surface().sample(&us, &vs, &mut points).unwrap();
+    let (same, distance) = OwnedSurface::near(knots(), [p, q], [&us, &vs], &points).unwrap();
+    assert!(distance < 1e-14 && same.points().iter().zip(surface.points()).all(|(a, b)| (a - b).length() < 1e-12));
+
+    let noisy: Vec<DVec3> = points.iter().enumerate().map(|(k, &point)| point + 0.1 * anywhere(k)).collect();
+    let (nearest, distance) = OwnedSurface::near(knots(), [p, q], [&us, &vs], &noisy).unwrap();
+    let noise = noisy.iter().zip(&points).map(|(noisy, point)| (noisy - point).length_squared()).sum::<f64>();
+    let noise = (noise / points.len() as f64).sqrt();
+    assert!(0.5 * noise < distance && distance < noise, "{distance} of {noise}");
+    nearest.surface().sample(&us, &vs, &mut points).unwrap();
+    let left: Vec<DVec3> = noisy.iter().zip(&points).map(|(noisy, point)| noisy - point).collect();
+    let (zero, _) = OwnedSurface::near(knots(), [p, q], [&us, &vs], &left).unwrap();
+    assert!(zero.points().iter().all(|point| point.length() < 1e-12));
+    let few = OwnedSurface::near(knots(), [p, q], [&us, &vs], &left[1..]).unwrap_err();
+    assert_eq!(few, SplineError::PointCount { points: 107, wanted: 108 });
+}
+
+/// Knots as often as the degree change nothing.
+#[test]
+fn pieces_are_the_surface() {
+    check_decomposed(&wavy());
+    check_decomposed(&rational());
+    check_decomposed(&torus());
+}
+
+fn check_decomposed<P: SurfacePoint<Scalar = f64, Point = DVec3>>(surface: &OwnedSurface<P>) {
+    let pieces = surface.decomposed();
+    let [whole, pieces] = [surface.surface(), pieces.surface()];
+    for direction in [Direction::U, Direction::V] {
+        let knots = pieces.knots(direction);
+        assert!(knots.spans().all(|span| knots.multiplicity(knots.knots()[span]) >= knots.degree()));
+    }
+    for [u, v] in places(&whole) {
+        assert!((whole.point(u, v) - pieces.point(u, v)).length() < 1e-14);
+        assert!((whole.normal(u, v) - pieces.normal(u, v)).length() < 1e-12);
+    }
+}
+
+/// Pieces in powers of the parameters are the same surface, with its tangents, inside and outside of its domain.
+#[test]
+fn bicubic_pieces_are_the_same_surface() {
+    for surface in [rational(), sphere(), torus()] {
+        let surface = surface.surface();
+        let mut memory = vec![Bicubic::default(); Bicubics::count(&surface)];
+        let pieces = Bicubics::new(&surface, &mut memory).unwrap();
+        let [[u0, u1], [v0, v1]] = surface.domain();
+        let corners = [[u0, v0], [u1, v0], [u0, v1], [u1, v1], [u1 + 0.1, v0 - 0.1]];
+        for [u, v] in places(&surface).into_iter().chain(corners) {
+            let (exact, found) = (surface.tangents(u, v), pieces.tangents(u, v));
+            for (exact, found) in exact.into_iter().zip(found) {
+                assert!((exact - found).length() < 1e-12 * (1.0 + exact.length()), "{exact} {found} at {u}, {v}");
+            }
+            assert!((pieces.point(u, v) - exact[0]).length() < 1e-12 * (1.0 + exact[0].length()));
+        }
+    }
+    let (surface, mut memory) = (rational(), [Bicubic::default(); 2]);
+    let wanted = Bicubics::count(&surface.surface());
+    assert_eq!(
+        Bicubics::new(&surface.surface(), &mut memory).unwrap_err(),
+        SplineError::PointCount { points: 2, wanted }
+    );
+    let steep = surface.elevated(Direction::U).unwrap();
+    assert_eq!(Bicubics::new(&steep.surface(), &mut memory).unwrap_err(), SplineError::Degree { degree: 4 });
+}
+
 /// Weights sum to one, move with their points, and points lie in the box around them.
 #[test]
 fn partition_of_unity_affine_invariance_and_convex_hull() {
@@ -299,6 +416,30 @@ fn extrusion_ruled_loft_and_coons() {
     }
     let wrong = coons([&curve, &left, &other, &right]);
     assert!(matches!(wrong, Err(SplineError::Corner { .. })), "{wrong:?}");
+}
+
+#[test]
+fn surfaces_go_through_rows_of_points() {
+    let points: Vec<DVec3> =
+        (0..6 * 5).map(|k| DVec3::new((k % 6) as f64, (k / 6) as f64, 0.0) + 0.2 * anywhere(k)).collect();
+    for degrees in [[3, 3], [2, 4], [1, 1], [5, 3]] {
+        let surface = OwnedSurface::through(&points, 6, degrees).unwrap();
+        for &point in &points {
+            assert!(surface.surface().nearest(point).distance < 1e-9);
+        }
+    }
+    // Those of a plane give the plane.
+    let flat: Vec<DVec3> = (0..20).map(|k| DVec3::new((k % 4) as f64, (k / 4) as f64, (k % 4) as f64 * 0.5)).collect();
+    let plane = OwnedSurface::through(&flat, 4, [3, 2]).unwrap();
+    for [u, v] in places(&plane.surface()) {
+        let point = plane.surface().point(u, v);
+        assert!((point.z - 0.5 * point.x).abs() < 1e-13);
+        assert!((plane.surface().normal(u, v) - DVec3::new(-0.5, 0.0, 1.0).normalize()).length() < 1e-12);
+    }
+    assert_eq!(OwnedSurface::through(&points, 7, [3, 3]), Err(SplineError::Ragged { points: 30, columns: 7 }));
+    assert!(OwnedSurface::through(&points, 6, [6, 3]).is_err());
+    assert!(OwnedSurface::through(&points, 6, [3, 5]).is_err());
+    assert!(OwnedSurface::through(&[points[0]; 20], 4, [3, 3]).is_err());
 }
 
 #[test]

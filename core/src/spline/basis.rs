@@ -42,6 +42,29 @@ pub(super) fn cox_de_boor<R: Real, const N: usize>(window: &[R], degree: usize, 
     values
 }
 
+/// Where `t` lies between pairs of knots, all found at once, as no quotient waits for another one; one quotient is enough
+/// where all pairs are the same, as those of a Bezier piece are.
+#[inline(always)]
+fn shares<R: Real, const M: usize>(lows: [R; M], highs: [R; M], t: R) -> [R; M] {
+    // The last knots are the first and the last of all.
+    if lows[M / 2] == lows[0] && highs[M - 1] == highs[0] {
+        return [(t - lows[0]) / (highs[0] - lows[0]); M];
+    }
+    core::array::from_fn(|i| (t - lows[i]) / (highs[i] - lows[i]))
+}
+
+/// From the basis functions of degree `j - 1` to those of degree `j`, by where `t` lies in the supports of the former.
+#[inline(always)]
+fn blend<R: Real>(shares: &[R], j: usize, values: &mut [R]) {
+    let mut saved = R::ZERO;
+    for r in 0..j {
+        let before = values[r];
+        values[r] = saved + (R::ONE - shares[r]) * before;
+        saved = shares[r] * before;
+    }
+    values[j] = saved;
+}
+
 /// Their derivatives of order `k`.
 #[inline(always)]
 pub(super) fn cox_de_boor_derivative<R: Real, const N: usize>(window: &[R], degree: usize, k: usize, t: R) -> [R; N] {
@@ -63,13 +86,33 @@ pub(super) fn cox_de_boor_orders<R: Real, const N: usize, const K: usize>(
     degree: usize,
     t: R,
 ) -> [[R; N]; K] {
+    match (degree, window) {
+        (2, &[a, b, c, d]) => {
+            let shares = shares([b, a, b], [c, c, d], t);
+            triangle(window, degree, |j, values| blend(&shares[j * (j - 1) / 2..], j, values))
+        }
+        (3, &[a, b, c, d, e, f]) => {
+            let shares = shares([c, b, c, a, b, c], [d, d, e, d, e, f], t);
+            triangle(window, degree, |j, values| blend(&shares[j * (j - 1) / 2..], j, values))
+        }
+        _ => triangle(window, degree, |j, values| raise(window, degree, j, t, values)),
+    }
+}
+
+/// The same, where `raise` gives the basis functions of a degree from those of the degree below.
+#[inline(always)]
+fn triangle<R: Real, const N: usize, const K: usize>(
+    window: &[R],
+    degree: usize,
+    raise: impl Fn(usize, &mut [R]),
+) -> [[R; N]; K] {
     let mut orders = [[R::ZERO; N]; K];
     let mut values = [R::ZERO; N];
     values[0] = R::ONE;
     let window = &window[..2 * degree];
     for j in 0..degree + 1 {
         if j > 0 {
-            raise(window, degree, j, t, &mut values);
+            raise(j, &mut values);
         }
         let order = degree - j;
         if order < K {

@@ -28,15 +28,16 @@ pub fn bernstein<R: Real>(values: &mut [R], t: R) {
 #[inline(always)]
 pub(super) fn bernstein_sum<V: VectorSpace>(points: &[V], t: V::Scalar) -> V {
     let s = V::Scalar::ONE - t;
+    // The usual one is asked for first.
+    if let [a, b, c, d] = *points {
+        let (ss, three) = (s * s, V::Scalar::from_f64(3.0));
+        return a * (ss * s) + (b * (ss * three) + (c * (s * three) + d * t) * t) * t;
+    }
     match *points {
         [] => V::default(),
         [a] => a,
         [a, b] => a * s + b * t,
         [a, b, c] => a * (s * s) + b * ((s + s) * t) + c * (t * t),
-        [a, b, c, d] => {
-            let (ss, tt, three) = (s * s, t * t, V::Scalar::from_f64(3.0));
-            (a * (ss * s) + b * (three * ss * t)) + (c * (three * s * tt) + d * (tt * t))
-        }
         _ => horner(points, t),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::bernstein::PASCAL;
 use super::bezier::MAX_ORDER;
+use super::nearest_cubic::nearer_of_cubic;
 use super::split::halve;
 use super::{BSpline, Bezier, ControlPoint, Curve, Parameter};
 use crate::math::{Real, VectorSpace};
@@ -45,11 +46,11 @@ const fn shares() -> [[f64; COEFFICIENTS]; MAX_ORDER] {
 impl<P: ControlPoint> Bezier<'_, P> {
     /// The point nearest to another one; of several, one of them.
     ///
-    /// The nearest one of all, not only of its surroundings: branch and bound. In Bernstein form no value of the squared
-    /// distance is below its smallest coefficient, so that parts of the curve that cannot be nearer are left out; where the
-    /// coefficients are convex, the part holds one minimum, which Newton's method finds. Known to be the nearest one after
-    /// at most 8192 parts. The
-    /// distance is right to rounding, the parameter to the square root of it where the curve runs around the point.
+    /// The nearest one of all, not only of its surroundings. For a cubic without weights it is a root of a quintic. For all
+    /// others branch and bound: in Bernstein form no value of the squared distance is below its smallest coefficient, so
+    /// that parts of the curve that cannot be nearer are left out; where the coefficients are convex, the part holds one
+    /// minimum, which Newton's method finds. Known to be the nearest one after at most 8192 parts. The distance is right to
+    /// rounding, the parameter to the square root of it where the curve runs around the point.
     pub fn nearest(&self, to: P::Point) -> Nearest<P::Point> {
         let far = Nearest { distance: P::Scalar::INFINITY, ..Nearest::default() };
         self.nearer(to, far)
@@ -57,6 +58,9 @@ impl<P: ControlPoint> Bezier<'_, P> {
 
     /// The point nearest to another one, or the one known before if that one is.
     fn nearer(&self, to: P::Point, best: Nearest<P::Point>) -> Nearest<P::Point> {
+        if let (&[a, b, c, d], true) = (self.points(), P::DIMENSION == P::Point::DIMENSION) {
+            return nearer_of_cubic([a, b, c, d].map(P::project), to, best);
+        }
         let mut search = Search { curve: *self, to, best, pieces: 0 };
         let mut points = [P::default(); MAX_ORDER];
         points[..=self.degree()].copy_from_slice(self.points());

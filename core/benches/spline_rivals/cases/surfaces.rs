@@ -74,15 +74,19 @@ fn same() -> Same {
 
 pub fn cases() -> Vec<Case> {
     let Same { own, single, curvo, truck } = forever(same());
+    let decomposed = forever(own.decomposed()).surface();
     let (own, single, uv) = (own.surface(), single.surface(), parameters());
     let (us, vs): (Vec<f64>, Vec<f64>) =
         ((0..40).map(share).collect(), (0..25).map(|k| share(k) * 39.0 / 24.0).collect());
     let grid: Vec<[f64; 2]> = vs.iter().flat_map(|&v| us.iter().map(move |&u| [u, v])).collect();
     let title = |what: &str| format!("bicubic NURBS surface, 8 x 7 points: {what}");
     let mut points = vec![DVec3::ZERO; grid.len()];
+    let pieces = Bicubics::new(&own, vec![Bicubic::default(); Bicubics::count(&own)].leak()).unwrap();
     vec![
         Case::new(&title("1000 points anywhere"))
+            .call("radiosity Bicubics", &uv, move |[u, v]| pieces.point(u, v))
             .call("radiosity", &uv, move |[u, v]| own.point(u, v))
+            .call("radiosity, decomposed", &uv, move |[u, v]| decomposed.point(u, v))
             .call("radiosity, f32", &uv, move |[u, v]| single.point(u as f32, v as f32))
             .call("curvo", &uv, |[u, v]| curvo.point_at(u, v))
             .call("truck-geometry", &uv, |[u, v]| truck.subs(u, v)),
@@ -92,6 +96,10 @@ pub fn cases() -> Vec<Case> {
             .call("curvo", &grid, |[u, v]| curvo.point_at(u, v))
             .call("truck-geometry", &grid, |[u, v]| truck.subs(u, v)),
         Case::new(&title("1000 normals"))
+            .call("radiosity Bicubics", &uv, move |[u, v]| {
+                let [_, du, dv] = pieces.tangents(u, v);
+                du.cross(dv).normalize_or_zero()
+            })
             .call("radiosity", &uv, move |[u, v]| own.normal(u, v))
             .call("curvo", &uv, |[u, v]| curvo.normal_at(u, v))
             .call("truck-geometry", &uv, |[u, v]| truck.normal(u, v)),

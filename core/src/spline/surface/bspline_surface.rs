@@ -246,7 +246,8 @@ impl<'a, P: SurfacePoint> BSplineSurface<'a, P> {
         let columns = self.columns();
         let mut partials = [[P::default(); N]; N];
         let start = (j + 1 - B) * columns + i + 1 - A;
-        for (k, row) in self.points[start..].chunks(columns).take(B).enumerate() {
+        let rows = self.points[start..].chunks(columns).take(B).filter_map(|row| row.first_chunk::<A>());
+        for (k, row) in rows.enumerate() {
             for (a, along) in along.iter().enumerate() {
                 let mut of_row = row[0] * along[0];
                 (1..A).for_each(|i| of_row += row[i] * along[i]);

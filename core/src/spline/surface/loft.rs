@@ -1,4 +1,4 @@
-//! Lofted surfaces: a skin over curves.
+//! Lofted surfaces: a skin over curves, or over rows of points.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -6,7 +6,9 @@ use alloc::vec::Vec;
 use super::compatible::compatible;
 use super::{OwnedSurface, SurfacePoint};
 use crate::math::{Real, VectorSpace as _};
-use crate::spline::{BSpline, KnotVector, OwnedBSpline, SplineError, averaged_knots, band, interpolate};
+use crate::spline::{
+    BSpline, ControlPoint, KnotVector, OwnedBSpline, SplineError, averaged_knots, band, chord_times, interpolate,
+};
 
 /// The surface through curves, one after the other, of a degree along `v` that is at most one less than their number.
 ///
@@ -35,6 +37,38 @@ pub fn loft<P: SurfacePoint>(curves: &[BSpline<P>], degree: usize) -> Result<Own
         rows.iter_mut().zip(&solved).for_each(|(row, &point)| row.points[i] = point);
     }
     OwnedSurface::from_rows(rows, knots, degree)
+}
+
+impl<V: SurfacePoint + ControlPoint<Point = V>> OwnedSurface<V> {
+    /// The surface of degrees along `u` and `v` through rows of points, each with so many columns.
+    ///
+    /// All points of a column have the same `u`, all of a row the same `v`: those that follow the mean distances between
+    /// columns and between rows. Piegl and Tiller, "The NURBS Book", section 9.2.5.
+    ///
+    /// # Errors
+    ///
+    /// Where the points do not fill rows, there are not more columns and rows than the degrees, or two rows or columns that
+    /// follow each other are the same.
+    pub fn through(points: &[V], columns: usize, [p, q]: [usize; 2]) -> Result<Self, SplineError> {
+        if columns == 0 || !points.len().is_multiple_of(columns) {
+            return Err(SplineError::Ragged { points: points.len(), columns });
+        }
+        let (mut parameters, mut of_row) = (vec![V::Scalar::ZERO; columns], vec![V::Scalar::ZERO; columns]);
+        for row in points.chunks_exact(columns) {
+            chord_times(row, V::Scalar::ONE, &mut of_row)?;
+            parameters.iter_mut().zip(&of_row).for_each(|(sum, &time)| *sum += time);
+        }
+        let mut knots = vec![V::Scalar::ZERO; columns + p + 1];
+        averaged_knots(&parameters, p, &mut knots)?;
+        let mut scratch = vec![V::Scalar::ZERO; band(columns, p)];
+        let mut rows = Vec::new();
+        for row in points.chunks_exact(columns) {
+            let mut control_points = vec![V::default(); columns];
+            interpolate(KnotVector::new(&knots, p)?, &parameters, row, &mut scratch, &mut control_points)?;
+            rows.push(OwnedBSpline::new(knots.clone(), p, control_points)?);
+        }
+        loft(&rows.iter().map(OwnedBSpline::curve).collect::<Vec<_>>(), q)
+    }
 }
 
 /// From 0 to 1, at the mean over all control points of the share of the way that is done.

@@ -4,6 +4,7 @@
 //! to `v` is a turn to the left.
 
 mod bezier_surface;
+mod bicubics;
 mod bspline_surface;
 #[cfg(feature = "alloc")]
 mod compatible;
@@ -13,6 +14,9 @@ mod curvature;
 mod edge;
 #[cfg(feature = "alloc")]
 mod extrusion;
+#[cfg(feature = "alloc")]
+mod fit;
+mod hermite_patch;
 mod jet;
 #[cfg(feature = "alloc")]
 mod loft;
@@ -25,6 +29,7 @@ mod ray;
 mod surface_point;
 
 pub use bezier_surface::*;
+pub use bicubics::*;
 pub use bspline_surface::*;
 #[cfg(feature = "alloc")]
 pub use coons::*;
@@ -32,6 +37,7 @@ pub use curvature::*;
 pub use edge::*;
 #[cfg(feature = "alloc")]
 pub use extrusion::*;
+pub use hermite_patch::*;
 pub use jet::*;
 #[cfg(feature = "alloc")]
 pub use loft::*;

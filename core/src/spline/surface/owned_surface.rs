@@ -1,5 +1,6 @@
 //! Surfaces that own their knots and points: they can be edited, refined, split and cut into curves.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::{BSplineSurface, Direction, SurfacePoint};
@@ -64,6 +65,36 @@ impl<P: SurfacePoint> OwnedSurface<P> {
         let probe = self.lines(direction).next().ok_or(SplineError::Empty)?.with_inserted_knots(knots);
         KnotVector::new(&probe, self.degrees[direction as usize])?;
         Ok(self.changed(direction, |line| line.with_inserted(knots)))
+    }
+
+    /// A surface with one knot less along a direction, and how far it is away at most.
+    ///
+    /// # Errors
+    ///
+    /// As [`BSpline::remove`](crate::spline::BSpline::remove).
+    pub fn without_knot(&self, direction: Direction, knot: P::Scalar) -> Result<(Self, P::Scalar), SplineError> {
+        let mut farthest = P::Scalar::ZERO;
+        for line in self.lines(direction) {
+            farthest = farthest.max(line.removed(knot)?.1);
+        }
+        let removed = |line: &OwnedBSpline<P>| line.removed(knot).map_or_else(|_| line.clone(), |(removed, _)| removed);
+        Ok((self.changed(direction, removed), farthest))
+    }
+
+    /// The same surface with every inner knot as often as its degree, so that each piece has the control points of a Bezier
+    /// surface.
+    ///
+    /// Its single points are found faster: the basis functions of such a piece share one quotient in each direction. "The
+    /// NURBS Book", algorithm A5.7.
+    pub fn decomposed(&self) -> Self {
+        [Direction::U, Direction::V].into_iter().fold(self.clone(), |surface, direction| {
+            let (all, degree) = (surface.surface().knots(direction), surface.degrees[direction as usize]);
+            let [low, high] = all.domain();
+            let inner = all.spans().map(|span| all.knots()[span]).filter(|&knot| low < knot && knot < high);
+            let missing = inner.flat_map(|knot| vec![knot; degree.saturating_sub(all.multiplicity(knot))]);
+            let missing: Vec<_> = missing.collect();
+            surface.changed(direction, |line| line.with_inserted(&missing))
+        })
     }
 
     /// The same surface with a degree higher by one along a direction.

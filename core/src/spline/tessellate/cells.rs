@@ -368,10 +368,9 @@ impl<P: SurfacePoint> Cells<'_, P> {
 
     /// Whether a straight line between two points of an edge of the surface is near enough to it.
     fn holds(&self, side: Side, [from, to]: [Scalar<P>; 2]) -> bool {
-        let middle = (from + to) * Scalar::<P>::from_f64(0.5);
-        let [a, m, b] = [from, middle, to].map(|t| self.surface.edge(side, t));
-        let step = to - from;
-        self.tolerance.holds_at_border([a[0], m[0], b[0]], [a[1] * step, b[1] * step])
+        let step = (to - from) * Scalar::<P>::from_f64(0.25);
+        let at = |quarters| self.surface.edge(side, from + step * Scalar::<P>::from_usize(quarters))[0];
+        self.tolerance.holds_at_border([0, 1, 2, 3, 4].map(at))
     }
 
     /// The line below the cells of row `j`, in parts.

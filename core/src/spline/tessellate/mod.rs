@@ -32,9 +32,11 @@ pub struct Tolerance<R> {
 
 impl<R: Real> Tolerance<R> {
     /// Triangles that lie within `chord` of the surface, in meters, and along whose edges the normal turns by no more than
-    /// `angle`, in radians; 0.001 and 0.2 are usual.
+    /// `angle`, in radians; 0.001 and 0.2 are usual. Those without a vertex on an edge of the surface face the way of the
+    /// surface within twice the angle.
     ///
-    /// Each triangle is checked at seven points, so that the surface may be a little further away between them. Beside a
+    /// Each triangle is checked at the quarters of its edges and at four points inside, with a few percent to spare for
+    /// what lies between them; where the weights of a surface differ by hundreds, it may be up to half more. Beside a
     /// straight edge along which a surface twists, normals turn by more: see [`tessellate`]. A piece of a surface between
     /// knots has at most 256 columns and rows, and what is left is cut into at most twice as many triangles and 65 536.
     ///

@@ -21,6 +21,8 @@ const NONE: u32 = u32::MAX;
 struct Edge<P: SurfacePoint> {
     ends: [u32; 2],
     middle: Vertex<P::Point>,
+    /// The points of the surface below its quarters.
+    below: [P::Point; 3],
     /// Whether it is to be halved.
     coarse: bool,
     /// Whether it may be halved: an edge of the surface may not, its neighbor has it too.
@@ -92,18 +94,27 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
         let [a, b] = ends.map(|end| &self.vertices.all[end as usize]);
         let middle = self.vertices.at(self.chart.middle(a.uv, b.uv), None);
         let divisible = is_inner && self.is_divisible([a, b]);
-        let edge = [a, &middle, b];
+        let [quarter, three_quarters] = [0.25, 0.75].map(|share| self.between([a, b], share));
+        let below = [quarter, middle.point, three_quarters];
+        let points = [a.point, quarter, middle.point, three_quarters, b.point];
         // Where a straight edge of the surface twists, no number of halvings makes the normals beside it agree.
-        let holds =
-            self.tolerance.holds_chord_inside(edge) && (a.border || b.border || self.tolerance.holds_turn_inside(edge));
+        let holds = self.tolerance.holds_chord_inside(points, middle.normal)
+            && (a.border || b.border || self.tolerance.holds_turn_inside([a, &middle, b]));
         self.edges.push(Edge {
             ends,
             middle,
+            below,
             coarse: divisible && !holds && !self.is_last,
             divisible,
             halves: [NONE; 3],
         });
         self.edges.len() as u32 - 1
+    }
+
+    /// The point of the surface at a share of the way from one vertex to another.
+    fn between(&self, [a, b]: [&Vertex<P::Point>; 2], share: f64) -> P::Point {
+        let share = Scalar::<P>::from_f64(share);
+        self.vertices.point([0, 1].map(|k| a.uv[k] + (b.uv[k] - a.uv[k]) * share))
     }
 
     /// Whether an edge is longer than the finest ones in each parameter that changes along it.
@@ -147,9 +158,9 @@ impl<'a, P: SurfacePoint> Refiner<'a, P> {
             let shares = shares.map(Scalar::<P>::from_f64);
             self.vertices.point([0, 1].map(|k| (0..3).map(|i| corners[i].uv[k] * shares[i]).sum()))
         });
-        let middles = triangle.edges.map(|edge| self.edges[edge as usize].middle.point);
+        let below = triangle.edges.map(|edge| self.edges[edge as usize].below);
         if self.tolerance.holds_distance(corners, center.point)
-            && inside.iter().chain(&middles).all(|&point| self.tolerance.holds_distance(corners, point))
+            && inside.iter().chain(below.as_flattened()).all(|&point| self.tolerance.holds_distance(corners, point))
             && (is_at_border || self.tolerance.holds_normal(corners, &center))
         {
             return;

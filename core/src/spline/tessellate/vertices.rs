@@ -10,8 +10,6 @@ use crate::spline::{BSplineSurface, Direction, Scalar, Side, SurfacePoint};
 pub(super) struct Vertex<V: Vector> {
     pub uv: [V::Scalar; 2],
     pub point: V,
-    pub du: V,
-    pub dv: V,
     pub normal: V,
     /// Whether it lies on an edge of the surface.
     pub border: bool,
@@ -48,7 +46,7 @@ impl<'a, P: SurfacePoint> Vertices<'a, P> {
             [point, _] = self.surface.edge(side, if side.is_along_u() { u } else { v });
             point = self.poles.iter().flatten().copied().find(|&pole| is_at(point, pole)).unwrap_or(point);
         }
-        Vertex { uv, point, du, dv, normal: self.normal(uv, du, dv), border: side.is_some() }
+        Vertex { uv, point, normal: self.normal(uv, du, dv), border: side.is_some() }
     }
 
     /// A point of the surface.
