@@ -80,29 +80,44 @@ fn directional_light() {
 /// A lightmap on glass: the light on it and what is seen through it, composed as the core does.
 #[test]
 fn glass_with_a_lightmap() {
+    const ALPHA: f32 = 0.35;
+    let behind = Vec3::new(0.2, 0.3, 0.4);
     let Some(mut studio) = studio() else { return };
-    let behind = [0.2, 0.3, 0.4];
-    studio.app.insert_resource(ClearColor(Color::linear_rgb(behind[0], behind[1], behind[2])));
+    studio.app.insert_resource(ClearColor(Color::linear_rgb(behind.x, behind.y, behind.z)));
     let light = PointLight { intensity: 20_000.0, color: warm(), ..default() };
     let light = studio.app.world_mut().spawn((Baked::default(), light, Transform::from_xyz(0.0, 0.0, HEIGHT))).id();
     let opaque = studio.center();
-    let mut materials = studio.app.world_mut().resource_mut::<Assets<StandardMaterial>>();
-    let glass: Vec<_> = materials.ids().collect();
-    for id in glass {
-        let mut material = materials.get_mut(id).unwrap();
-        material.alpha_mode = AlphaMode::Blend;
-        material.base_color.set_alpha(0.35);
+    let over = StraightRgba { rgb: opaque.to_array(), alpha: ALPHA }
+        .premultiplied()
+        .over(StraightRgba { rgb: behind.to_array(), alpha: 1.0 }.premultiplied());
+    let modes = [
+        (AlphaMode::Blend, Vec4::from_array(over.to_array()).truncate()),
+        (AlphaMode::Premultiplied, opaque + (1.0 - ALPHA) * behind),
+        (AlphaMode::Add, ALPHA * opaque + behind),
+        (AlphaMode::Multiply, (ALPHA * opaque + (1.0 - ALPHA)) * behind),
+    ];
+    for (mode, composed) in modes {
+        blend(&mut studio, mode, ALPHA);
+        assert_same(studio.center(), composed);
+        bake(&mut studio.app);
+        assert_same(studio.center(), composed);
+        let lightmaps = studio.app.world_mut().query::<&Lightmap>().iter(studio.app.world()).count();
+        assert_eq!(lightmaps, 1, "{mode:?}");
     }
-    let pane = StraightRgba { rgb: opaque.to_array(), alpha: 0.35 }.premultiplied();
-    let composed = pane.over(StraightRgba { rgb: behind, alpha: 1.0 }.premultiplied()).to_array();
-    let composed = Vec4::from_array(composed).truncate();
-    assert_same(studio.center(), composed);
-    bake(&mut studio.app);
-    assert_same(studio.center(), composed);
     studio.app.world_mut().despawn(light);
-    assert_same(studio.center(), composed);
-    let lightmaps = studio.app.world_mut().query::<&Lightmap>().iter(studio.app.world()).count();
-    assert_eq!(lightmaps, 1);
+    for (mode, composed) in modes {
+        blend(&mut studio, mode, ALPHA);
+        assert_same(studio.center(), composed);
+    }
+}
+
+/// Makes all materials let light through.
+fn blend(studio: &mut Studio, mode: AlphaMode, alpha: f32) {
+    let mut materials = studio.app.world_mut().resource_mut::<Assets<StandardMaterial>>();
+    for (_, material) in materials.iter_mut() {
+        material.alpha_mode = mode;
+        material.base_color.set_alpha(alpha);
+    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use bevy_radiosity::transparency::{TransparencyPlugin, TransparentDepth, Transpa
 use radiosity::composite::{Samples, StraightRgba, back_to_front};
 use radiosity_tests::panes::{
     self, BACKGROUND, GREEN, Pane, RED, differing, exact, move_to, spawn, swap_two_panes, triangles_of_panes,
-    wrong_pixels,
+    wrong_pixels, wrong_pixels_at_once,
 };
 use radiosity_tests::render::Studio;
 
@@ -44,6 +44,67 @@ fn plain_bevy_freezes_the_order() {
     let [before, after] = swap_two_panes(&mut studio);
     assert_eq!(before, 0);
     assert!(after > 500, "{after} wrong pixels after the swap");
+}
+
+/// The red pane behind the green one, and both have been drawn so.
+fn red_behind_green() -> Option<(Studio, Entity, Entity)> {
+    let mut studio = studio()?;
+    let red = spawn(&mut studio, RED, Transform::from_xyz(0.1, 0.05, -0.5));
+    let green = spawn(&mut studio, GREEN, Transform::from_xyz(-0.1, -0.05, 0.0));
+    assert_exact(&mut studio);
+    Some((studio, red, green))
+}
+
+const BEFORE_GREEN: Vec3 = Vec3::new(0.1, 0.05, 0.5);
+
+#[test]
+fn first_frame_after_a_move() {
+    let Some((mut studio, red, _)) = red_behind_green() else { return };
+    move_to(&mut studio, red, BEFORE_GREEN);
+    let camera = studio.camera;
+    assert_eq!(wrong_pixels_at_once(&mut studio, camera), 0, "wrong pixels");
+}
+
+#[test]
+fn first_frame_of_what_moved_unseen() {
+    let Some((mut studio, red, green)) = red_behind_green() else { return };
+    let camera = studio.camera;
+    set(&mut studio, red, Visibility::Hidden);
+    drop(studio.picture(camera));
+    move_to(&mut studio, red, BEFORE_GREEN);
+    drop(studio.picture(camera));
+    // It moves once more in the frame in which it is shown, and the other one, which was seen all the time, too.
+    move_to(&mut studio, red, BEFORE_GREEN * 0.9);
+    move_to(&mut studio, green, vec3(-0.1, -0.05, 0.1));
+    set(&mut studio, red, Visibility::Inherited);
+    assert_eq!(wrong_pixels_at_once(&mut studio, camera), 0, "wrong pixels");
+}
+
+#[test]
+fn first_frame_of_a_camera_that_was_off() {
+    let Some((mut studio, red, _)) = red_behind_green() else { return };
+    let camera = studio.camera;
+    let switch = |studio: &mut Studio, is_active| {
+        studio.app.world_mut().get_mut::<Camera>(camera).unwrap().is_active = is_active;
+    };
+    switch(&mut studio, false);
+    drop(studio.picture(camera));
+    move_to(&mut studio, red, BEFORE_GREEN);
+    drop(studio.picture(camera));
+    switch(&mut studio, true);
+    assert_eq!(wrong_pixels_at_once(&mut studio, camera), 0, "wrong pixels");
+}
+
+#[test]
+fn first_frame_after_the_order_of_queuing() {
+    let Some((mut studio, red, _)) = red_behind_green() else { return };
+    let camera = studio.camera;
+    set(&mut studio, camera, TransparentDepth::AsQueued);
+    move_to(&mut studio, red, BEFORE_GREEN);
+    let frozen = wrong_pixels(&mut studio, camera, Samples::One);
+    assert!(frozen > 500, "as Bevy alone has it, {frozen} pixels are wrong");
+    set(&mut studio, camera, TransparentDepth::Planar);
+    assert_eq!(wrong_pixels_at_once(&mut studio, camera), 0, "wrong pixels");
 }
 
 /// Colors, sizes and depths without a pattern, from a low-discrepancy sequence.

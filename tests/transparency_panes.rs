@@ -2,12 +2,15 @@
 
 use std::f32::consts::{FRAC_PI_2, TAU};
 
+use bevy::camera::ScalingMode;
 use bevy::camera::visibility::RenderLayers;
+use bevy::mesh::{MeshVertexAttribute, VertexAttributeValues};
 use bevy::pbr::Lightmap;
 use bevy::prelude::*;
+use bevy::render::render_resource::VertexFormat;
 use bevy::render::settings::{Backends, WgpuSettings};
 use bevy_radiosity::prelude::*;
-use bevy_radiosity::transparency::TransparencyPlugin;
+use bevy_radiosity::transparency::{SortedTriangles, TransparencyPlugin};
 use radiosity::composite::Samples;
 use radiosity_tests::bake::bake;
 use radiosity_tests::panes::{self, GREEN, Pane, RED, move_to, spawn, wrong_pixels};
@@ -66,6 +69,31 @@ fn crossing_panes() {
     assert!(wrong <= AT_EDGES, "{wrong} wrong pixels when one is gone");
 }
 
+/// Under a parent that is not to scale, and for a camera without perspective.
+#[test]
+fn crossing_panes_of_a_scaled_parent() {
+    let Some(mut studio) = studio() else { return };
+    let lens = Projection::Orthographic(OrthographicProjection {
+        scaling_mode: ScalingMode::FixedVertical { viewport_height: 1.6 },
+        ..OrthographicProjection::default_3d()
+    });
+    let parallel = studio.add_camera(Transform::default(), (lens, Msaa::Off));
+    let place = Transform::from_xyz(0.05, 0.0, 0.1).with_scale(vec3(1.4, 0.7, 0.9));
+    let parent = studio.app.world_mut().spawn((place, Visibility::default())).id();
+    let red = spawn(&mut studio, RED, Transform::from_rotation(Quat::from_rotation_y(0.6)));
+    let green = spawn(&mut studio, GREEN, Transform::from_rotation(Quat::from_rotation_y(-0.5)));
+    studio.app.world_mut().entity_mut(parent).add_children(&[red, green]);
+    split(&mut studio, &[red, green]);
+    for eye in EYES {
+        let place = Transform::from_translation(eye).looking_at(Vec3::ZERO, Vec3::Y);
+        for camera in [studio.camera, parallel] {
+            studio.app.world_mut().entity_mut(camera).insert(place);
+            let wrong = wrong_pixels(&mut studio, camera, Samples::One);
+            assert!(wrong <= AT_EDGES, "{wrong} wrong pixels from {eye}");
+        }
+    }
+}
+
 /// Each over the next at one end and under the one before at the other.
 #[test]
 fn three_panes_in_a_cycle() {
@@ -102,6 +130,149 @@ fn others_stay_between() {
         let wrong = look_from(&mut studio, EYES[0]);
         assert!(wrong <= AT_EDGES, "{wrong} wrong pixels with the third at {z}");
     }
+}
+
+/// A pane is drawn before another that it is behind, but keeps its place among other things where it covers nothing of it.
+#[test]
+fn panes_side_by_side() {
+    let Some(mut studio) = studio() else { return };
+    // The eye and the near one lie on different sides of the plane of the far one.
+    let far =
+        Transform::from_xyz(0.6, 0.0, -0.6).with_rotation(Quat::from_rotation_y(1.064)).with_scale(Vec3::splat(0.5));
+    let near = Transform::from_xyz(-0.4, 0.0, 0.5).with_scale(Vec3::splat(0.5));
+    spawn(&mut studio, Pane { size: 0.6, ..BLUE }, Transform::from_xyz(-0.5, 0.1, 0.0));
+    // Whichever is cut first.
+    for [first, second] in [[far, near], [near, far]] {
+        let panes = [spawn(&mut studio, GREEN, first), spawn(&mut studio, RED, second)];
+        assert_eq!(look_from(&mut studio, EYES[0]), 0, "whole");
+        split(&mut studio, &panes);
+        let wrong = look_from(&mut studio, EYES[0]);
+        assert!(wrong <= AT_EDGES, "{wrong} wrong pixels");
+        for pane in panes {
+            studio.app.world_mut().despawn(pane);
+        }
+    }
+}
+
+/// From the frame on in which a pane is cut.
+#[test]
+fn pieces_are_seen_at_once() {
+    let Some(mut studio) = studio() else { return };
+    let red = spawn(&mut studio, RED, Transform::from_rotation(Quat::from_rotation_y(0.6)));
+    let green = spawn(&mut studio, GREEN, Transform::from_rotation(Quat::from_rotation_y(-0.5)));
+    let camera = studio.camera;
+    drop(studio.picture(camera));
+    split(&mut studio, &[red, green]);
+    studio.app.update();
+    assert!(pieces_of(&studio, red).len() > 1);
+    for piece in pieces_of(&studio, red) {
+        assert!(studio.app.world().get::<ViewVisibility>(piece).is_some_and(|seen| seen.get()));
+    }
+    studio.app.world_mut().entity_mut(red).insert(Visibility::Hidden);
+    studio.app.update();
+    for piece in pieces_of(&studio, red) {
+        assert!(!studio.app.world().get::<ViewVisibility>(piece).is_some_and(|seen| seen.get()));
+    }
+}
+
+fn pieces_of(studio: &Studio, pane: Entity) -> Vec<Entity> {
+    let children = studio.app.world().get::<Children>(pane).map(|children| children.to_vec());
+    children.into_iter().flatten().chain([pane]).collect()
+}
+
+/// Whatever an app does to a pane between two frames, it is drawn as a whole.
+#[test]
+fn panes_are_cut_again() {
+    let Some(mut studio) = studio() else { return };
+    let red = spawn(&mut studio, RED, Transform::from_rotation(Quat::from_rotation_y(0.6)));
+    let green = spawn(&mut studio, GREEN, Transform::from_rotation(Quat::from_rotation_y(-0.5)));
+    let given = studio.app.world().get::<Mesh3d>(red).unwrap().clone();
+    split(&mut studio, &[red, green]);
+    let hold = |studio: &mut Studio, what: &str| {
+        let wrong = look_from(studio, EYES[1]);
+        assert!(wrong <= AT_EDGES, "{wrong} wrong pixels {what}");
+        assert!(studio.app.world().get::<Children>(red).is_some(), "{what} it is cut");
+    };
+    hold(&mut studio, "at first");
+    studio.app.world_mut().entity_mut(red).remove::<SplitPane>().insert(SplitPane);
+    hold(&mut studio, "taken away and given back");
+    studio.app.world_mut().entity_mut(red).insert(given);
+    hold(&mut studio, "with its own mesh given once more");
+    studio.app.world_mut().entity_mut(red).despawn_related::<Children>();
+    hold(&mut studio, "without its children");
+    let pieces = studio.app.world().get::<Children>(red).unwrap().to_vec();
+    studio.app.world_mut().despawn(pieces[0]);
+    hold(&mut studio, "without one of its children");
+    let pieces = studio.app.world().get::<Children>(red).unwrap().to_vec();
+    studio.app.world_mut().entity_mut(pieces[0]).remove::<ChildOf>();
+    hold(&mut studio, "when a child was taken away");
+    let clone = studio.app.world_mut().entity_mut(red).clone_and_spawn();
+    move_to(&mut studio, clone, vec3(0.0, 0.1, 0.3));
+    hold(&mut studio, "beside its clone");
+    studio.app.world_mut().despawn(clone);
+    hold(&mut studio, "without its clone");
+}
+
+/// A pane that is cut is not sorted, before, with and after the other component.
+#[test]
+fn panes_with_sorted_triangles() {
+    let Some(mut studio) = studio() else { return };
+    let red = spawn(&mut studio, RED, Transform::from_rotation(Quat::from_rotation_y(0.6)));
+    let green = spawn(&mut studio, GREEN, Transform::from_rotation(Quat::from_rotation_y(-0.5)));
+    let given = studio.app.world().get::<Mesh3d>(red).unwrap().clone();
+    studio.app.world_mut().entity_mut(red).insert(SortedTriangles { turn: 0.0 });
+    look_from(&mut studio, EYES[0]);
+    split(&mut studio, &[red, green]);
+    for eye in EYES {
+        let wrong = look_from(&mut studio, eye);
+        assert!(wrong <= AT_EDGES, "{wrong} wrong pixels from {eye}");
+    }
+    studio.app.world_mut().entity_mut(red).remove::<SortedTriangles>();
+    let wrong = look_from(&mut studio, EYES[1]);
+    assert!(wrong <= AT_EDGES, "{wrong} wrong pixels without");
+    studio.app.world_mut().entity_mut(red).remove::<SplitPane>();
+    studio.app.update();
+    assert_eq!(studio.app.world().get::<Mesh3d>(red), Some(&given));
+}
+
+/// What cannot be cut stays whole, and takes nothing from the others.
+#[test]
+fn unfit_panes() {
+    let Some(mut studio) = studio() else { return };
+    let red = spawn(&mut studio, RED, Transform::from_rotation(Quat::from_rotation_y(0.6)));
+    let green = spawn(&mut studio, GREEN, Transform::from_rotation(Quat::from_rotation_y(-0.5)));
+    let lost = spawn(&mut studio, RED, Transform::from_xyz(f32::NAN, 0.0, 0.0));
+    let away = Transform::from_xyz(0.0, 0.0, 50.0);
+    let [short, odd] = [(); 2].map(|()| spawn(&mut studio, RED, away));
+    let mut meshes = studio.app.world_mut().resource_mut::<Assets<Mesh>>();
+    let mut mesh = Mesh::from(Rectangle::new(1.0, 1.0));
+    mesh.insert_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0, 0.0]; 3]);
+    let too_short = meshes.add(mesh);
+    let mut mesh = Mesh::from(Rectangle::new(1.0, 1.0));
+    let attribute = MeshVertexAttribute::new("Odd", 988_540_917, VertexFormat::Sint32x2);
+    mesh.insert_attribute(attribute, VertexAttributeValues::Sint32x2(vec![[0, 0]; 4]));
+    let uncuttable = meshes.add(mesh);
+    studio.app.world_mut().entity_mut(short).insert(Mesh3d(too_short.clone()));
+    studio.app.world_mut().entity_mut(odd).insert(Mesh3d(uncuttable.clone()));
+    split(&mut studio, &[red, green, lost, short, odd]);
+    let camera = studio.camera;
+    drop(studio.picture(camera));
+    let world = studio.app.world();
+    for (pane, mesh) in [(short, too_short), (odd, uncuttable)] {
+        assert_eq!(world.get::<Mesh3d>(pane), Some(&Mesh3d(mesh)));
+    }
+    assert!(world.get::<Children>(lost).is_none());
+    assert!(world.get::<Children>(red).is_some() || world.get::<Children>(green).is_some());
+    // Without any change nothing is cut again, the lost one notwithstanding.
+    studio.app.world_mut().resource_mut::<Messages<AssetEvent<Mesh>>>().clear();
+    studio.app.update();
+    let messages = studio.app.world().resource::<Messages<AssetEvent<Mesh>>>();
+    assert!(messages.is_empty(), "meshes were written again");
+    for pane in [lost, short, odd] {
+        studio.app.world_mut().despawn(pane);
+    }
+    let wrong = look_from(&mut studio, EYES[1]);
+    assert!(wrong <= AT_EDGES, "{wrong} wrong pixels");
 }
 
 /// Pieces look like their panes, and panes get their meshes back.

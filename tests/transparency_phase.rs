@@ -4,6 +4,7 @@
 use bevy::core_pipeline::core_3d::{Transparent3d, TransparentSortingInfo3d};
 use bevy::material::descriptor::CachedRenderPipelineId;
 use bevy::material::labels::DrawFunctionId;
+use bevy::pbr::Transmissive3d;
 use bevy::prelude::*;
 use bevy::render::mesh::RenderMesh;
 use bevy::render::render_asset::RenderAssets;
@@ -26,7 +27,7 @@ impl Phase {
         let mut render_app = SubApp::new();
         render_app
             .init_resource::<ViewSortedRenderPhases<Transparent3d>>()
-            .init_resource::<ViewSortedRenderPhases<bevy::pbr::Transmissive3d>>()
+            .init_resource::<ViewSortedRenderPhases<Transmissive3d>>()
             .init_resource::<RenderAssets<RenderMesh>>()
             .add_schedule(Render::base_schedule())
             .add_systems(Render, sort_phase_system::<Transparent3d>.in_set(RenderSystems::PhaseSort));
@@ -132,4 +133,41 @@ fn nothing_is_sorted_where_nothing_is_transparent() {
     let mut phase = Phase::new();
     phase.app.sub_app_mut(RenderApp).world_mut().run_schedule(Render);
     assert!(phase.phases().is_empty());
+}
+
+/// Apps that do without materials that transmit have no such phase.
+#[test]
+fn phases_that_do_not_exist_are_left_out() {
+    let mut phase = Phase::new();
+    [-3.0, -9.0].into_iter().zip(1..).for_each(|(z, number)| phase.add_at(number, z));
+    phase.app.sub_app_mut(RenderApp).world_mut().remove_resource::<ViewSortedRenderPhases<Transmissive3d>>();
+    assert_eq!(phase.order(), [2, 1]);
+}
+
+/// Glass that bends light is drawn from far to near, too.
+#[test]
+fn transmissive_things() {
+    let mut phase = Phase::new();
+    let view = phase.view;
+    for (z, number) in [-3.0, -9.0, -1.0, -5.0].into_iter().zip(1..) {
+        let entity = Entity::from_raw_u32(number).expect("a small number");
+        let item = Transmissive3d {
+            sorting_info: TransparentSortingInfo3d::Sorted { mesh_center: Vec3::new(0.0, 0.0, z), depth_bias: 0.0 },
+            distance: 0.0,
+            pipeline: CachedRenderPipelineId::INVALID,
+            entity: (Entity::PLACEHOLDER, MainEntity::from(entity)),
+            draw_function: DrawFunctionId(0),
+            batch_range: 0..1,
+            extra_index: PhaseItemExtraIndex::None,
+            indexed: false,
+        };
+        let world = phase.app.sub_app_mut(RenderApp).world_mut();
+        let mut phases = world.resource_mut::<ViewSortedRenderPhases<Transmissive3d>>();
+        phases.entry(view).or_default().add_retained(item);
+    }
+    let world = phase.app.sub_app_mut(RenderApp).world_mut();
+    world.run_schedule(Render);
+    let phases = world.resource::<ViewSortedRenderPhases<Transmissive3d>>();
+    let order: Vec<u32> = phases[&view].items.keys().map(|(_, main)| main.id().index_u32()).collect();
+    assert_eq!(order, [2, 4, 1, 3]);
 }

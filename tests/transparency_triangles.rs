@@ -1,6 +1,7 @@
 //! The triangles within a transparent mesh, pixel by pixel against the exact composite of the core.
 
 use bevy::asset::RenderAssetUsages;
+use bevy::camera::visibility::RenderLayers;
 use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
 use bevy::render::settings::{Backends, WgpuSettings};
@@ -132,6 +133,21 @@ fn meshes_that_change() {
     studio.app.world_mut().despawn(entity);
     let seen = studio.picture(camera);
     assert!(seen.iter().all(|pixel| pixel.abs_diff_eq(Vec3::from(panes::BACKGROUND), CLOSE)));
+}
+
+/// A nearer camera that does not see the mesh does not count.
+#[test]
+fn cameras_on_other_layers() {
+    let Some(mut studio) = studio() else { return };
+    let place = Transform::default();
+    let (entity, _) = spawn(&mut studio, mesh(SQUARES), place);
+    studio.app.world_mut().entity_mut(entity).insert(SortedTriangles::default());
+    let nearer = Transform::from_xyz(0.0, 0.0, -1.5).looking_at(Vec3::ZERO, Vec3::Y);
+    let nearer = studio.add_camera(nearer, (Msaa::Off, RenderLayers::layer(7)));
+    let camera = studio.camera;
+    assert_eq!(wrong(&mut studio, camera, &place, SQUARES), 0, "it sees others");
+    studio.app.world_mut().entity_mut(nearer).remove::<RenderLayers>();
+    assert_eq!(wrong(&mut studio, nearer, &place, SQUARES), 0, "it sees the mesh");
 }
 
 /// What cannot be sorted is drawn as it is.

@@ -127,6 +127,17 @@ pub fn wrong_pixels(studio: &mut Studio, camera: Entity, samples: Samples) -> us
     differing(&seen, &exact(studio, camera, samples, &triangles), CLOSE)
 }
 
+/// So too in the very next frame; the camera is off afterwards.
+///
+/// # Panics
+///
+/// Where no pane is in view.
+pub fn wrong_pixels_at_once(studio: &mut Studio, camera: Entity) -> usize {
+    let seen = studio.next_picture(camera);
+    let triangles = triangles_of_panes(studio);
+    differing(&seen, &exact(studio, camera, Samples::One, &triangles), CLOSE)
+}
+
 /// A studio with the background behind it; none where there is no GPU.
 pub fn studio(settings: WgpuSettings, msaa: Msaa) -> Option<Studio> {
     let mut studio = Studio::with_settings(settings, msaa)?;

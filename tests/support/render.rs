@@ -104,6 +104,18 @@ impl Studio {
         pixels.map(|pixels| pixels.rgb.clone()).expect("only cameras of the studio have pictures")
     }
 
+    /// What a camera sees in the very next frame, before anything has settled. The camera is off afterwards.
+    ///
+    /// # Panics
+    ///
+    /// Where the renderer has stopped with an error.
+    pub fn next_picture(&mut self, camera: Entity) -> Vec<Vec3> {
+        finish_plugins(&mut self.app);
+        self.app.update();
+        self.app.world_mut().get_mut::<Camera>(camera).expect("a camera").is_active = false;
+        self.picture(camera)
+    }
+
     /// The mean of four pixels in the middle of the picture.
     ///
     /// # Panics

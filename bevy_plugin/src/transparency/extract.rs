@@ -19,8 +19,8 @@ pub struct Moved(pub Vec<(MainEntity, Option<Vec3>)>);
 /// The orders of entities and the depths of cameras.
 #[derive(Resource, Default)]
 pub struct Orders {
-    /// With half the size of the bounding box, zero where it is not known yet.
-    pub entities: MainEntityHashMap<(TransparentOrder, Vec3)>,
+    /// With the bounding box, where it is known.
+    pub entities: MainEntityHashMap<(TransparentOrder, Option<Aabb>)>,
     pub cameras: MainEntityHashMap<TransparentDepth>,
 }
 
@@ -33,20 +33,20 @@ type IsNew = Or<(Changed<TransparentOrder>, Changed<Aabb>)>;
 /// the last one.
 pub fn extract_moved(
     mut moved: ResMut<Moved>,
-    transparent: Res<ViewSortedRenderPhases<Transparent3d>>,
-    transmissive: Res<ViewSortedRenderPhases<Transmissive3d>>,
+    transparent: Option<Res<ViewSortedRenderPhases<Transparent3d>>>,
+    transmissive: Option<Res<ViewSortedRenderPhases<Transmissive3d>>>,
     meshes: Extract<Query<Place, HasMoved>>,
 ) {
     moved.0.clear();
-    if has_items(&transparent) || has_items(&transmissive) {
+    if has_items(transparent.as_deref()) || has_items(transmissive.as_deref()) {
         moved.0.extend(meshes.iter().map(|(entity, transform, aabb)| {
             (entity.into(), aabb.map(|aabb| transform.transform_point(aabb.center.into())))
         }));
     }
 }
 
-fn has_items<I: DepthSorted>(phases: &ViewSortedRenderPhases<I>) -> bool {
-    phases.values().any(|phase| !phase.items.is_empty())
+fn has_items<I: DepthSorted>(phases: Option<&ViewSortedRenderPhases<I>>) -> bool {
+    phases.is_some_and(|phases| phases.values().any(|phase| !phase.items.is_empty()))
 }
 
 pub fn extract_orders(
@@ -59,8 +59,7 @@ pub fn extract_orders(
         orders.entities.remove(&MainEntity::from(entity));
     }
     for (entity, &order, aabb) in &changed {
-        let half_size = aabb.map_or(Vec3::ZERO, |aabb| aabb.half_extents.into());
-        orders.entities.insert(entity.into(), (order, half_size));
+        orders.entities.insert(entity.into(), (order, aabb.copied()));
     }
 }
 

@@ -15,8 +15,21 @@
 //! multiplied and premultiplied materials) the order counts.
 //!
 //! What no order of whole meshes can cure: meshes that pass through each other, that overlap in a cycle, or that surround
-//! each other. The example `overlap` shows it. [`SplitPane`] and [`SortedTriangles`] cure it for panes and within a mesh;
+//! each other. The example `overlap` shows it (`examples/pictures/overlap.png`: sorted, cut, exact). [`SplitPane`] and [`SortedTriangles`] cure it for panes and within a mesh;
 //! large curved meshes that pass through each other need order independent transparency.
+//!
+//! What it costs: milliseconds in which the render world sorts, least of 15 frames, in one run
+//! (`bevy_plugin/benches/transparency.rs`). Where everything moves Bevy alone sorts nothing: its order is that of the start.
+//!
+//! | transparent meshes | what moves | Bevy 0.19 alone | with the plugin |
+//! |---|---|---|---|
+//! | 0 | | 0.016 | 0.024 |
+//! | 1 000 | nothing | 0.036 | 0.046 |
+//! | 1 000 | the camera | 0.076 | 0.086 |
+//! | 1 000 | everything | 0.031 | 0.110 |
+//! | 100 000 | nothing | 1.4 | 2.4 |
+//! | 100 000 | the camera | 10.2 | 9.0 |
+//! | 100 000 | everything | 1.5 | 10.2 |
 
 mod components;
 mod extract;
@@ -30,7 +43,7 @@ mod triangles;
 use bevy::core_pipeline::core_3d::Transparent3d;
 use bevy::pbr::Transmissive3d;
 use bevy::prelude::*;
-use bevy::render::render_phase::sort_phase_system;
+use bevy::render::render_phase::{ViewSortedRenderPhases, sort_phase_system};
 use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
 
 pub use components::{TransparentDepth, TransparentKey, TransparentOrder};
@@ -41,7 +54,8 @@ pub use triangles::SortedTriangles;
 use order::{Held, LastOrder, hold, order};
 use phase::DepthSorted;
 
-/// Draws transparent things in the right order. Add it after `DefaultPlugins`; without a renderer it does nothing.
+/// Draws transparent things in the right order. Add it after `DefaultPlugins`; without a renderer it does nothing, and
+/// phases that the app goes without, such as that of materials that transmit, are left out.
 #[derive(Default)]
 pub struct TransparencyPlugin;
 
@@ -81,6 +95,7 @@ fn add_phase<I: DepthSorted>(render_app: &mut SubApp) {
         (
             hold::<I>.in_set(TransparencySystems::Hold).before(sort_phase_system::<I>),
             order::<I>.in_set(TransparencySystems::Order).after(sort_phase_system::<I>),
-        ),
+        )
+            .distributive_run_if(resource_exists::<ViewSortedRenderPhases<I>>),
     );
 }

@@ -9,7 +9,6 @@ use radiosity::composite::{Draw, ViewDepth, resort};
 
 use super::TransparentDepth;
 use super::extract::Moved;
-use super::panes::viewpoint;
 use super::phase::DepthSorted;
 use super::place::Places;
 
@@ -100,9 +99,8 @@ impl<I: DepthSorted> LastOrder<I> {
         let before = self.views.entry(view.retained_view_entity).or_default();
         self.draws.clear();
         let ranks = Ranks::new(before, phase);
-        let keyed = phase.items.iter_mut().enumerate().map(|(index, (item_key, item))| {
+        let keyed = phase.items.iter().enumerate().map(|(index, (item_key, item))| {
             let key = places.key(item_key.1, item.sorting_info(), depth);
-            item.set_distance(key.depth());
             Draw { key, rank: ranks.of(index, item_key), index: index as u32 }
         });
         self.draws.extend(keyed);
@@ -110,7 +108,7 @@ impl<I: DepthSorted> LastOrder<I> {
         let tolerance = tolerance(view, &self.draws);
         if let Some(panes) = &places.panes.0 {
             let piece = |index| panes.pieces.get(&phase.items.get_index(index as usize)?.0.1).copied();
-            panes.deal(&mut self.draws, piece, viewpoint(view), 2.0 * tolerance);
+            panes.deal(&mut self.draws, piece, view, 2.0 * tolerance);
         }
         resort(&mut self.draws, &mut self.scratch, tolerance);
         rearrange(phase, &self.draws);
@@ -158,14 +156,15 @@ fn tolerance(view: &ExtractedView, draws: &[Draw]) -> f32 {
     EQUAL * (farthest + view.world_from_view.translation().abs().max_element())
 }
 
-/// Moves each item to the place of its draw.
+/// Moves each item to the place of its draw, and tells it the depth that took it there.
 fn rearrange<I: DepthSorted>(phase: &mut SortedRenderPhase<I>, draws: &[Draw]) {
     let is_in_place = |(place, draw): (usize, &Draw)| place == draw.index as usize;
-    if draws.iter().enumerate().all(is_in_place) {
-        return;
+    if !draws.iter().enumerate().all(is_in_place) {
+        // The map moves its entries with their hashes, where taking them out and in again would hash each.
+        let mut places = vec![0_u32; draws.len()];
+        draws.iter().for_each(|draw| places[draw.index as usize] = draw.rank);
+        phase.items.values_mut().zip(places).for_each(|(item, place)| item.set_distance(f32::from_bits(place)));
+        phase.items.sort_by_cached_key(|_, item| item.distance().to_bits());
     }
-    let items = std::mem::take(&mut phase.items);
-    let mut items: Vec<_> = items.into_iter().map(Some).collect();
-    phase.items.reserve(items.len());
-    phase.items.extend(draws.iter().filter_map(|draw| items[draw.index as usize].take()));
+    phase.items.values_mut().zip(draws).for_each(|(item, draw)| item.set_distance(draw.key.depth()));
 }

@@ -12,6 +12,8 @@ pub trait DepthSorted: SortedPhaseItem {
     /// It has moved; what is always on top stays there.
     fn move_to(&mut self, center: Vec3);
     /// What Bevy's sort would have gone by.
+    fn distance(&self) -> f32;
+    /// Tells what [`distance`](Self::distance) returns.
     fn set_distance(&mut self, distance: f32);
 }
 
@@ -22,6 +24,10 @@ impl DepthSorted for Transparent3d {
 
     fn move_to(&mut self, center: Vec3) {
         move_center(&mut self.sorting_info, center);
+    }
+
+    fn distance(&self) -> f32 {
+        self.distance
     }
 
     fn set_distance(&mut self, distance: f32) {
@@ -36,6 +42,10 @@ impl DepthSorted for Transmissive3d {
 
     fn move_to(&mut self, center: Vec3) {
         move_center(&mut self.sorting_info, center);
+    }
+
+    fn distance(&self) -> f32 {
+        self.distance
     }
 
     fn set_distance(&mut self, distance: f32) {

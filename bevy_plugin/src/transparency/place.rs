@@ -1,8 +1,9 @@
 //! Where a transparent thing is, as the renderer will draw it in this frame.
 
+use bevy::camera::primitives::Aabb;
 use bevy::core_pipeline::core_3d::TransparentSortingInfo3d;
 use bevy::ecs::system::SystemParam;
-use bevy::math::{Affine3, Affine3A, Affine3Ext};
+use bevy::math::{Affine3, Affine3A, Affine3Ext, Vec3A};
 use bevy::pbr::{MeshInputUniform, MeshUniform, RenderMeshInstances};
 use bevy::prelude::*;
 use bevy::render::batching::gpu_preprocessing::BatchedInstanceBuffers;
@@ -34,13 +35,16 @@ impl Places<'_> {
         let TransparentSortingInfo3d::Sorted { mesh_center, depth_bias } = item else {
             return DrawKey::new(i16::MIN, i16::MIN, f32::NEG_INFINITY);
         };
-        let Some(&(order, half_size)) = self.orders.entities.get(&entity) else {
+        let Some(&(order, aabb)) = self.orders.entities.get(&entity) else {
             return DrawKey::new(0, 0, depth.of_point(mesh_center) + depth_bias);
         };
         let TransparentOrder { layer, priority, bias, key } = order;
         let place = match self.mesh(entity) {
             None => depth.of_point(mesh_center),
-            Some((world, center)) => of_mesh(depth, &world, center, half_size, key),
+            Some((world, center)) => {
+                let unknown = Aabb { center: center.into(), half_extents: Vec3A::ZERO };
+                of_mesh(depth, &world, &aabb.unwrap_or(unknown), key)
+            }
         };
         DrawKey::new(layer, priority, place + depth_bias + bias)
     }
@@ -68,13 +72,14 @@ impl Places<'_> {
     }
 }
 
-fn of_mesh(depth: &ViewDepth, world: &Affine3A, center: Vec3, half_size: Vec3, key: TransparentKey) -> f32 {
+fn of_mesh(depth: &ViewDepth, world: &Affine3A, aabb: &Aabb, key: TransparentKey) -> f32 {
     let point = match key {
         TransparentKey::Origin => return depth.of_point(world.translation.into()),
         TransparentKey::Center => BoxPoint::Center,
         TransparentKey::Nearest => BoxPoint::Nearest,
         TransparentKey::Farthest => BoxPoint::Farthest,
     };
-    let half_axes = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| world.transform_vector3(axis * half_size));
-    depth.of_bounds(&Bounds { center: world.transform_point3(center), half_axes }, point)
+    let half_axes =
+        [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| world.transform_vector3(axis * Vec3::from(aabb.half_extents)));
+    depth.of_bounds(&Bounds { center: world.transform_point3(aabb.center.into()), half_axes }, point)
 }

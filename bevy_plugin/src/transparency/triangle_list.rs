@@ -32,6 +32,9 @@ impl<'a> TriangleList<'a> {
             Ok(_) => return Err("the mesh has no positions of three floats; give it Mesh::ATTRIBUTE_POSITION"),
             Err(_) => return Err(ON_GPU),
         };
+        if mesh.attributes().any(|(_, values)| values.len() != positions.len()) {
+            return Err("its attributes are not of the same length; give each as many values as there are positions");
+        }
         let (indices, width): (Vec<u32>, _) = match mesh.try_indices_option() {
             Ok(Some(Indices::U16(indices))) => (indices.iter().copied().map(u32::from).collect(), IndexWidth::U16),
             Ok(Some(Indices::U32(indices))) => (indices.clone(), IndexWidth::U32),

@@ -1,4 +1,7 @@
 //! Triangles to pixels, with a depth buffer: what a target without a GPU sees.
+//!
+//! The hemicube of [`form_factor`](crate::form_factor) draws with it. The preview of a bake does not: the rays of the bake
+//! are there already, and need neither clipping nor a buffer.
 
 use core::fmt;
 use core::ops::Range;

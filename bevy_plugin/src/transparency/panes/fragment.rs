@@ -11,22 +11,39 @@ pub struct Source {
     pub corners: [Vec3; 3],
 }
 
-/// A mesh of the part of a triangle within a convex polygon in its plane; its vertices are interpolated.
-///
 /// # Errors
 ///
-/// Where an attribute cannot be interpolated: which.
-pub fn fragment(mesh: &Mesh, source: &Source, polygon: &[Vec3]) -> Result<Mesh, &'static str> {
+/// Where an attribute cannot be interpolated: what to do.
+pub fn can_be_cut(mesh: &Mesh) -> Result<(), &'static str> {
+    use VertexAttributeValues as Values;
+    let can_be_cut = |values: &_| {
+        matches!(
+            values,
+            Values::Float32(_)
+                | Values::Float32x2(_)
+                | Values::Float32x3(_)
+                | Values::Float32x4(_)
+                | Values::Unorm8x4(_)
+        )
+    };
+    match mesh.attributes().all(|(_, values)| can_be_cut(values)) {
+        true => Ok(()),
+        false => Err("it has an attribute that is neither of floats nor of colors; remove that from its mesh"),
+    }
+}
+
+/// A mesh of the part of a triangle within a convex polygon in its plane; its vertices are interpolated.
+pub fn fragment(mesh: &Mesh, source: &Source, polygon: &[Vec3]) -> Mesh {
     let weights: Vec<[f32; 3]> = polygon.iter().map(|&corner| barycentric(corner, &source.corners)).collect();
     let mut part = Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::default());
     for (attribute, values) in mesh.attributes() {
-        let values = interpolated(values, source.vertices, &weights).ok_or(attribute.name)?;
+        let Some(values) = interpolated(values, source.vertices, &weights) else { continue };
         let &MeshVertexAttribute { name, id, format } = attribute;
         part.insert_attribute(MeshVertexAttribute { name, id, format }, values);
     }
     let fan = (1..polygon.len().saturating_sub(1) as u16).flat_map(|k| [0, k, k + 1]);
     part.insert_indices(Indices::U16(fan.collect()));
-    Ok(part)
+    part
 }
 
 /// The weights of the corners of a triangle with which a point in its plane is their mean.
@@ -80,7 +97,7 @@ mod tests {
             .with_inserted_attribute(Mesh::ATTRIBUTE_UV_1, corners.map(|p| [p.x, p.y]).to_vec());
         let at = |a: f32, b: f32| corners[0] * a + corners[1] * b + corners[2] * (1.0 - a - b);
         let polygon = [at(1.0, 0.0), at(0.2, 0.5), at(0.3, 0.3), at(0.6, 0.0)];
-        let part = fragment(&mesh, &Source { vertices: [0, 1, 2], corners }, &polygon).unwrap();
+        let part = fragment(&mesh, &Source { vertices: [0, 1, 2], corners }, &polygon);
         assert_eq!(part.indices().map(Indices::len), Some(6));
         let Some(VertexAttributeValues::Float32x3(normals)) = part.attribute(Mesh::ATTRIBUTE_NORMAL) else { panic!() };
         let Some(VertexAttributeValues::Float32x2(uv)) = part.attribute(Mesh::ATTRIBUTE_UV_1) else { panic!() };

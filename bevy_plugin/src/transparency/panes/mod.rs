@@ -3,10 +3,12 @@
 mod carried;
 mod fragment;
 mod order;
+mod outline;
 
 use std::sync::Arc;
 
 use bevy::asset::AssetEventSystems;
+use bevy::camera::visibility::VisibilitySystems;
 use bevy::ecs::component::ComponentId;
 use bevy::ecs::system::SystemState;
 use bevy::math::Affine3A;
@@ -21,10 +23,10 @@ use super::triangle_list::TriangleList;
 use crate::bake::NotBaked;
 use crate::stand_in::{StandIn, given_mesh};
 use carried::{carried, carry, carry_changes};
-use fragment::{Source, fragment};
+use fragment::{Source, can_be_cut, fragment};
 
 pub use carried::PieceComponents;
-pub use order::{CutPanes, PIECES, viewpoint};
+pub use order::{CutPanes, PIECES};
 
 /// Cuts the triangles of this entity's mesh where they run through those of others that have this component, and draws
 /// the pieces in an order that is right for every camera.
@@ -43,7 +45,11 @@ pub(super) fn plugin(app: &mut App) {
         .init_resource::<PieceComponents>()
         .add_systems(
             PostUpdate,
-            update_panes.after(TransformSystems::Propagate).before(AssetEventSystems).run_if(are_there_panes),
+            update_panes
+                .after(TransformSystems::Propagate)
+                .before(VisibilitySystems::VisibilityPropagate)
+                .before(AssetEventSystems)
+                .run_if(are_there_panes),
         )
         .add_observer(give_back);
 }
@@ -61,6 +67,8 @@ pub(super) fn extract_panes(mut extracted: ResMut<ExtractedPanes>, panes: Extrac
 pub(super) struct Panes {
     known: Vec<Pane>,
     cut: Option<Arc<CutPanes>>,
+    /// Why some stay whole. What does not change is said once.
+    reasons: Vec<String>,
 }
 
 /// A pane as it was when it was cut.
@@ -69,13 +77,22 @@ struct Pane {
     entity: Entity,
     mesh: Handle<Mesh>,
     is_loaded: bool,
+    /// It and all of its children draw its pieces.
+    is_cut: bool,
+    /// Zero where it is not finite.
     place: Affine3A,
     carried: Vec<ComponentId>,
 }
 
-/// On a pane: who draws its other pieces.
-#[derive(Component, Clone, Default)]
+/// On a pane: who draws its other pieces. A clone of the pane gets its own.
+#[derive(Component, Default)]
+#[component(clone_behavior = Ignore)]
 struct Pieces(Vec<Entity>);
+
+/// On what draws a piece: the mesh that it draws is its own. A clone of it draws the same one, and must not write to it.
+#[derive(Component)]
+#[component(clone_behavior = Ignore)]
+struct OwnsMesh;
 
 /// A piece of a pane: its number, the number of its pane, and its mesh.
 type Part = (usize, usize, Mesh);
@@ -94,25 +111,43 @@ fn update_panes(world: &mut World, events: &mut SystemState<MessageReader<AssetE
     if panes == world.resource::<Panes>().known && !is_modified {
         return carry_changes(world, panes.iter().map(|pane| (pane.entity, &pane.carried[..])));
     }
-    let cut = match cut(world, &panes) {
+    let mut reasons = Vec::new();
+    let cut = match cut(world, &panes, &mut reasons) {
+        Ok((_, parts)) if parts.is_empty() => {
+            panes.iter().for_each(|pane| make_whole(world, pane.entity));
+            None
+        }
         Ok((tree, parts)) => Some(show(world, &panes, tree, parts)),
         Err(error) => {
-            warn!("{} panes stay whole: {error}", panes.len());
+            reasons.push(format!("all panes stay whole: {error}"));
             panes.iter().for_each(|pane| make_whole(world, pane.entity));
             None
         }
     };
-    world.insert_resource(Panes { known: panes, cut });
+    let said = &world.resource::<Panes>().reasons;
+    reasons.iter().filter(|reason| !said.contains(reason)).for_each(|reason| warn!("{reason}"));
+    let known = self::panes(world);
+    world.insert_resource(Panes { known, cut, reasons });
 }
 
 /// In the order of their entities, so that equal worlds are cut alike.
 fn panes(world: &mut World) -> Vec<Pane> {
-    let mut all = world.query_filtered::<(Entity, &Mesh3d, Option<&StandIn>, &GlobalTransform), With<SplitPane>>();
+    type Given<'a> = (
+        (Entity, &'a Mesh3d, Option<&'a StandIn>, Has<OwnsMesh>),
+        (&'a GlobalTransform, Option<&'a Pieces>, Option<&'a Children>),
+    );
+    let mut all = world.query_filtered::<Given, With<SplitPane>>();
     let mut panes: Vec<Pane> = all
         .iter(world)
-        .map(|(entity, mesh, stand_in, place)| {
-            let mesh = given_mesh(mesh, stand_in).clone();
-            Pane { entity, mesh, is_loaded: false, place: place.affine(), carried: Vec::new() }
+        .map(|((entity, drawn, stand_in, owns), (place, pieces, children))| {
+            let mesh = given_mesh(drawn, stand_in).clone();
+            let has_all = pieces
+                .into_iter()
+                .flat_map(|pieces| &pieces.0)
+                .all(|&piece| children.is_some_and(|children| children.contains(&piece)));
+            let is_cut = has_all && owns && mesh != drawn.0;
+            let place = Some(place.affine()).filter(Affine3A::is_finite).unwrap_or(Affine3A::ZERO);
+            Pane { entity, mesh, is_loaded: false, is_cut, place, carried: Vec::new() }
         })
         .collect();
     panes.sort_by_key(|pane| pane.entity);
@@ -123,16 +158,20 @@ fn panes(world: &mut World) -> Vec<Pane> {
 }
 
 /// A tree of all triangles, and for each of its pieces the pane and the mesh.
-fn cut(world: &World, panes: &[Pane]) -> Result<(Box<BspTree<PIECES>>, Vec<Part>), SplitError> {
+fn cut(
+    world: &World,
+    panes: &[Pane],
+    reasons: &mut Vec<String>,
+) -> Result<(Box<BspTree<PIECES>>, Vec<Part>), SplitError> {
     let meshes = world.resource::<Assets<Mesh>>();
     let mut tree = Box::<BspTree<PIECES>>::default();
     let mut sources = Vec::new();
     for (number, pane) in panes.iter().enumerate() {
         let Some(mesh) = meshes.get(&pane.mesh) else { continue };
-        let list = match TriangleList::of(mesh) {
+        let list = match TriangleList::of(mesh).and_then(|list| can_be_cut(mesh).map(|()| list)) {
             Ok(list) => list,
             Err(reason) => {
-                warn!("the pane {} stays whole: {reason}", label(world, pane.entity));
+                reasons.push(format!("the pane {} stays whole: {reason}", label(world, pane.entity)));
                 continue;
             }
         };
@@ -149,13 +188,7 @@ fn cut(world: &World, panes: &[Pane]) -> Result<(Box<BspTree<PIECES>>, Vec<Part>
     let mut parts = Vec::new();
     for (piece, part) in tree.pieces().enumerate() {
         let (number, mesh, source) = &sources[part.source as usize];
-        match fragment(mesh, source, part.corners()) {
-            Ok(mesh) => parts.push((piece, *number, mesh)),
-            Err(attribute) => {
-                let name = label(world, panes[*number].entity);
-                warn!("a piece of the pane {name} is missing: {attribute} cannot be cut; remove it from the mesh");
-            }
-        }
+        parts.push((piece, *number, fragment(mesh, source, part.corners())));
     }
     Ok((tree, parts))
 }
@@ -192,26 +225,33 @@ fn show(world: &mut World, panes: &[Pane], tree: Box<BspTree<PIECES>>, parts: Ve
 fn child(world: &mut World, pane: &Pane, number: usize) -> Entity {
     let known = world.get::<Pieces>(pane.entity).and_then(|pieces| pieces.0.get(number)).copied();
     let place = GlobalTransform::from(pane.place);
-    let child = match known.filter(|&child| world.get_entity(child).is_ok()) {
-        Some(child) => child,
-        None => {
-            let child = world.spawn((Transform::default(), Visibility::default(), NotBaked, ChildOf(pane.entity))).id();
-            let mut pieces = world.entity_mut(pane.entity).take::<Pieces>().unwrap_or_default();
-            pieces.0.truncate(number);
-            pieces.0.push(child);
-            world.entity_mut(pane.entity).insert(pieces);
-            child
-        }
-    };
+    let is_child = |child: &Entity| world.get::<ChildOf>(*child).map(ChildOf::parent) == Some(pane.entity);
+    let child = known.filter(is_child).unwrap_or_else(|| new_child(world, pane.entity, number));
     // Transforms were propagated before.
     world.entity_mut(child).insert(place);
     carry(world, pane.entity, child, &pane.carried);
     child
 }
 
+/// In the place of the one of this number, if there was one.
+fn new_child(world: &mut World, pane: Entity, number: usize) -> Entity {
+    let child = world.spawn((Transform::default(), Visibility::default(), NotBaked, ChildOf(pane))).id();
+    let mut pieces = world.entity_mut(pane).take::<Pieces>().unwrap_or_default();
+    match pieces.0.get_mut(number) {
+        Some(place) => {
+            // The app may have given it another parent.
+            world.try_despawn(std::mem::replace(place, child)).unwrap_or_default();
+        }
+        None => pieces.0.push(child),
+    }
+    world.entity_mut(pane).insert(pieces);
+    child
+}
+
 /// Draws a mesh in place of the one that the pane was given, in the asset of the last time if there is one.
 fn draw(world: &mut World, entity: Entity, given: &Handle<Mesh>, mesh: Mesh) {
-    let before = world.get::<StandIn>(entity).map(|stand_in| stand_in.drawn.clone());
+    let owner = world.get_entity(entity).ok().filter(|entity| entity.contains::<OwnsMesh>());
+    let before = owner.and_then(|owner| owner.get::<StandIn>()).map(|stand_in| stand_in.drawn.clone());
     let mut meshes = world.resource_mut::<Assets<Mesh>>();
     let drawn = match before {
         Some(drawn) if meshes.contains(&drawn) => {
@@ -223,7 +263,7 @@ fn draw(world: &mut World, entity: Entity, given: &Handle<Mesh>, mesh: Mesh) {
         _ => meshes.add(mesh),
     };
     let given = given.clone();
-    world.entity_mut(entity).insert((Mesh3d(drawn.clone()), StandIn { given, drawn }));
+    world.entity_mut(entity).insert((Mesh3d(drawn.clone()), StandIn { given, drawn }, OwnsMesh));
 }
 
 /// Lets those children of a pane go that have nothing more to draw.
@@ -240,7 +280,7 @@ fn make_whole(world: &mut World, pane: Entity) {
     let Ok(mut pane) = world.get_entity_mut(pane) else { return };
     if let (Some(mesh), Some(stand_in)) = (pane.get::<Mesh3d>(), pane.get::<StandIn>()) {
         let mesh = Mesh3d(given_mesh(mesh, Some(stand_in)).clone());
-        pane.insert(mesh).remove::<(StandIn, Pieces)>();
+        pane.insert(mesh).remove::<(StandIn, OwnsMesh, Pieces)>();
     }
 }
 

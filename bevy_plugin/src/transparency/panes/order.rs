@@ -3,7 +3,9 @@
 use bevy::prelude::*;
 use bevy::render::sync_world::MainEntityHashMap;
 use bevy::render::view::ExtractedView;
-use radiosity::composite::{BspTree, Draw, Viewpoint};
+use radiosity::composite::{BspTree, Draw, DrawKey, Viewpoint};
+
+use super::outline::Outline;
 
 /// So many pieces there can be.
 pub const PIECES: usize = 512;
@@ -16,33 +18,34 @@ pub struct CutPanes {
 }
 
 impl CutPanes {
-    /// Deals the depths of the pieces among `draws` out anew, the farthest to the piece at the back; so everything else
-    /// stays before and behind as many of them as it was. From one piece to the next they then differ by `gap` at least.
-    pub fn deal(&self, draws: &mut [Draw], piece: impl Fn(u32) -> Option<usize>, viewpoint: Viewpoint, gap: f32) {
-        let mut places = vec![0; self.tree.len()];
-        self.tree.order(viewpoint).enumerate().for_each(|(place, number)| places[number] = place);
-        let mut members: Vec<(u64, usize, usize)> = draws
-            .iter()
-            .enumerate()
-            .filter_map(|(at, draw)| Some((draw.key.group(), *places.get(piece(draw.index)?)?, at)))
-            .collect();
-        members.sort_unstable();
-        let mut keys: Vec<_> = members.iter().map(|&(.., at)| draws[at].key).collect();
-        keys.sort_unstable();
-        let mut last = None;
-        for (&(group, _, at), key) in members.iter().zip(keys) {
-            let depth = match last {
-                Some((before, depth)) if before == group => key.depth().max(depth + gap),
-                _ => key.depth(),
-            };
-            draws[at].key = key.at(depth);
-            last = Some((group, depth));
+    /// Puts the pieces among `draws` nearer that cover others which would come after them: nearer than those by `gap`.
+    /// All else keeps its depth, so that what is no pane stays before and behind as much as it can.
+    pub fn deal(&self, draws: &mut [Draw], piece: impl Fn(u32) -> Option<usize>, view: &ExtractedView, gap: f32) {
+        let mut draw_of = vec![None; self.tree.len()];
+        for (at, draw) in draws.iter().enumerate() {
+            let draw_of = piece(draw.index).and_then(|number| draw_of.get_mut(number));
+            draw_of.into_iter().for_each(|draw_of| *draw_of = Some(at));
+        }
+        let clip_from_world = view.clip_from_view * view.world_from_view.to_matrix().inverse();
+        let outlines: Vec<_> =
+            self.tree.pieces().map(|piece| Outline::new(piece.corners(), &clip_from_world)).collect();
+        let mut dealt: Vec<(DrawKey, usize)> = Vec::with_capacity(outlines.len());
+        for number in self.tree.order(viewpoint(view)) {
+            let Some(draw) = draw_of[number].and_then(|at| draws.get_mut(at)) else { continue };
+            for (before, other) in &dealt {
+                let nearer = before.depth() + gap;
+                let is_wrong = before.group() == draw.key.group() && nearer > draw.key.depth();
+                if is_wrong && outlines[*other].overlaps(&outlines[number]) {
+                    draw.key = draw.key.at(nearer);
+                }
+            }
+            dealt.push((draw.key, number));
         }
     }
 }
 
 /// From where a camera looks at panes.
-pub fn viewpoint(view: &ExtractedView) -> Viewpoint {
+fn viewpoint(view: &ExtractedView) -> Viewpoint {
     // The last row of a projection without perspective.
     match view.clip_from_view.w_axis.w {
         1.0 => Viewpoint::Direction(*view.world_from_view.forward()),

@@ -7,6 +7,7 @@ mod list;
 mod view;
 
 use bevy::asset::AssetEventSystems;
+use bevy::camera::visibility::RenderLayers;
 use bevy::ecs::entity::EntityHashMap;
 use bevy::platform::collections::HashSet;
 use bevy::prelude::*;
@@ -25,8 +26,8 @@ const IN_BACKGROUND: usize = 10_000;
 
 /// Sorts the triangles of this entity's mesh from far to near, by their centroids.
 ///
-/// The camera that counts is the nearest one of those that are active, with its `TransparentDepth`; others see the order
-/// that is right for this one. The entity gets a copy of its mesh, so that others that share it stay as they are; when the
+/// The camera that counts is the nearest one of those that are active and share a layer of `RenderLayers` with it, with
+/// its `TransparentDepth`; others see the order that is right for this one. The entity gets a copy of its mesh, so that others that share it stay as they are; when the
 /// app gives it another mesh, or changes the one it has, that one is copied anew. Without this component it gets its own
 /// mesh back. Skinned and morphed meshes are sorted in the pose of the asset.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
@@ -99,7 +100,7 @@ fn begin(
                 mesh3d.0 = drawn.clone();
                 let work = Work::Done(Order::of(&triangles));
                 let sorting = Sorting { triangles, sorted_for: None, work };
-                commands.entity(entity).insert((sorting, StandIn { given, drawn }));
+                commands.entity(entity).try_insert((sorting, StandIn { given, drawn }));
             }
             Err(reason) => {
                 let name = name.map_or_else(|| entity.to_string(), Name::to_string);
@@ -117,12 +118,10 @@ pub(super) fn modified_id(event: &AssetEvent<Mesh>) -> Option<AssetId<Mesh>> {
     }
 }
 
-fn sort(
-    mut sorted: Query<(&SortedTriangles, &GlobalTransform, &StandIn, &mut Sorting)>,
-    cameras: Cameras,
-    mut meshes: ResMut<Assets<Mesh>>,
-) {
-    for (settings, place, StandIn { drawn, .. }, mut sorting) in &mut sorted {
+type InView<'a> = (&'a SortedTriangles, &'a GlobalTransform, Option<&'a RenderLayers>, &'a StandIn, &'a mut Sorting);
+
+fn sort(mut sorted: Query<InView, ToSort>, cameras: Cameras, mut meshes: ResMut<Assets<Mesh>>) {
+    for (settings, place, layers, StandIn { drawn, .. }, mut sorting) in &mut sorted {
         let Sorting { triangles, sorted_for, work } = &mut *sorting;
         let before = match work {
             Work::Done(order) => std::mem::take(order),
@@ -134,7 +133,7 @@ fn sort(
                 }
             },
         };
-        let view = cameras.nearest(place, triangles.center());
+        let view = cameras.nearest(place, layers, triangles.center());
         let view = view.filter(|view| view.differs(sorted_for.as_ref(), settings.turn, triangles.center()));
         *work = match view {
             None => Work::Done(before),
@@ -154,10 +153,15 @@ fn sort(
     }
 }
 
-/// Whoever has another mesh by now keeps it.
-fn give_back(removed: On<Remove, SortedTriangles>, mut commands: Commands, mut sorted: Query<(&mut Mesh3d, &StandIn)>) {
+/// Whoever has another mesh by now keeps it. What a pane draws instead of its mesh is none of this.
+fn give_back(
+    removed: On<Remove, SortedTriangles>,
+    mut commands: Commands,
+    mut sorted: Query<(&mut Mesh3d, &StandIn), Without<SplitPane>>,
+) {
+    commands.entity(removed.entity).try_remove::<Sorting>();
     if let Ok((mut mesh3d, stand_in)) = sorted.get_mut(removed.entity) {
         mesh3d.0 = given_mesh(&mesh3d, Some(stand_in)).clone();
-        commands.entity(removed.entity).try_remove::<(Sorting, StandIn)>();
+        commands.entity(removed.entity).try_remove::<StandIn>();
     }
 }

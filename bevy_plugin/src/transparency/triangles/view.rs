@@ -1,15 +1,19 @@
 //! The camera for which triangles are sorted.
 
+use bevy::camera::visibility::RenderLayers;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use radiosity::composite::ViewDepth;
 
 use super::super::TransparentDepth;
 
+type Seeing =
+    (&'static Camera, &'static GlobalTransform, Option<&'static TransparentDepth>, Option<&'static RenderLayers>);
+
 /// All cameras that draw.
 #[derive(SystemParam)]
 pub struct Cameras<'w, 's> {
-    all: Query<'w, 's, (&'static Camera, &'static GlobalTransform, Option<&'static TransparentDepth>), With<Camera3d>>,
+    all: Query<'w, 's, Seeing, With<Camera3d>>,
 }
 
 /// A camera as a mesh sees it.
@@ -24,13 +28,16 @@ pub struct LocalView {
 }
 
 impl Cameras<'_, '_> {
-    /// The nearest active camera.
-    pub fn nearest(&self, mesh: &GlobalTransform, center: Vec3) -> Option<LocalView> {
+    /// The nearest active camera that sees one of these layers; none where a transform is not finite or cannot be inverted.
+    pub fn nearest(&self, mesh: &GlobalTransform, layers: Option<&RenderLayers>, center: Vec3) -> Option<LocalView> {
         let center = mesh.transform_point(center);
-        let active = self.all.iter().filter(|(camera, ..)| camera.is_active);
+        let layers = layers.unwrap_or_default();
+        let is_seen = |seen: Option<&RenderLayers>| seen.unwrap_or_default().intersects(layers);
+        let active = self.all.iter().filter(|&(camera, .., seen)| camera.is_active && is_seen(seen));
         let distance = |place: &GlobalTransform| place.translation().distance_squared(center);
-        let nearest = active.min_by(|(_, a, _), (_, b, _)| distance(a).total_cmp(&distance(b)));
-        nearest.map(|(_, place, depth)| LocalView::new(mesh, place, depth.copied().unwrap_or_default()))
+        let nearest = active.min_by(|(_, a, ..), (_, b, ..)| distance(a).total_cmp(&distance(b)));
+        let view = nearest.map(|(_, place, depth, _)| LocalView::new(mesh, place, depth.copied().unwrap_or_default()));
+        view.filter(|view| view.eye.is_finite() && view.forward.is_finite())
     }
 }
 

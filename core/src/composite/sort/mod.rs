@@ -2,6 +2,22 @@
 //!
 //! [`ViewDepth`] measures how near a thing is, [`DrawKey`] puts layer, priority and depth into one number, [`sort`] orders
 //! from scratch and [`resort`] from the order of the frame before. All of it happens in the caller's slices.
+//!
+//! Nanoseconds for each thing, measured in one run (`core/benches/composite_rivals`, `--bench sort`); coherent: few have
+//! changed places since the frame before, calm: with a tolerance, so that equal depths do not flicker.
+//!
+//! | keys | things | [`sort`] | [`resort`] | calm | radsort | `sort_unstable` |
+//! |---|---|---|---|---|---|---|
+//! | random | 1 000 | 7.2 | 8.7 | 10.6 | 7.1 | 7.8 |
+//! | random | 10 000 | 7.6 | 9.1 | 11.2 | 12.1 | 16.8 |
+//! | random | 100 000 | 10.1 | 10.7 | 14.8 | 14.1 | 19.4 |
+//! | random | 1 000 000 | 32.3 | 37.6 | 62.8 | 38.3 | 50.5 |
+//! | coherent | 1 000 | 7.2 | 1.7 | 3.5 | 7.2 | 7.1 |
+//! | coherent | 10 000 | 7.5 | 1.7 | 3.6 | 7.2 | 9.6 |
+//! | coherent | 100 000 | 10.9 | 4.4 | 7.8 | 10.1 | 14.9 |
+//! | coherent | 1 000 000 | 36.1 | 5.7 | 38.9 | 44.6 | 44.0 |
+//!
+//! Without room for a copy ([`sort`] with an empty `scratch`) it takes about twice as long as with it.
 
 mod depth;
 mod key;
