@@ -22,10 +22,12 @@ pub enum Stage {
     Gather,
     /// Repairs at borders and of invalid texels.
     Finish,
+    /// Paths of light that a bake is held against or that make a picture: no part of a bake, but all that is done.
+    Paths,
 }
 
 impl Stage {
-    /// All stages in their order.
+    /// All stages of a bake in their order.
     pub const ALL: [Self; 7] =
         [Self::Unwrap, Self::Geometry, Self::Direct, Self::Transport, Self::Solve, Self::Gather, Self::Finish];
 
@@ -39,6 +41,7 @@ impl Stage {
             Self::Solve => "solve",
             Self::Gather => "gather",
             Self::Finish => "finish",
+            Self::Paths => "paths",
         }
     }
 }
@@ -118,12 +121,15 @@ impl Progress {
     /// What the bake is doing now.
     pub fn snapshot(&self) -> Snapshot {
         let reached = self.reached.load(Ordering::Relaxed);
-        let index = ((reached >> SHARE_BITS) as usize).min(Stage::ALL.len() - 1);
+        let index = (reached >> SHARE_BITS) as usize;
         let stage_done = (reached & WHOLE) as f32 / WHOLE as f32;
-        let done = START[index] + (START[index + 1] - START[index]) * stage_done;
+        let (stage, done) = match Stage::ALL.get(index) {
+            Some(&stage) => (stage, START[index] + (START[index + 1] - START[index]) * stage_done),
+            None => (Stage::Paths, stage_done),
+        };
         let seconds = (self.clock)() as f32;
         let remaining_seconds = if done > 0.0 { seconds * (1.0 - done) / done } else { f32::INFINITY };
-        Snapshot { stage: Stage::ALL[index], stage_done, done, remaining_seconds }
+        Snapshot { stage, stage_done, done, remaining_seconds }
     }
 
     /// Seconds on the clock.
@@ -196,5 +202,17 @@ mod tests {
             assert_eq!(progress.snapshot().stage_done, 1.0);
         }
         assert_eq!(progress.snapshot().done, 1.0);
+    }
+
+    /// Paths are no part of a bake: half of them after 3 s leave as long a time.
+    #[test]
+    fn paths_are_a_whole() {
+        let progress = Progress::with_clock(|| 3.0);
+        progress.enter(Stage::Paths);
+        progress.enter_group(1, 4);
+        progress.advance(1.0).unwrap();
+        let now = progress.snapshot();
+        assert_eq!((now.stage, now.stage_done), (Stage::Paths, now.done));
+        assert!((now.done - 0.5).abs() < 1e-6 && (now.remaining_seconds - 3.0).abs() < 1e-4, "{now:?}");
     }
 }

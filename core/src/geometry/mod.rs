@@ -11,21 +11,21 @@ mod occluders;
 mod polygon_occluders;
 mod ray_log;
 
-#[cfg(all(feature = "alloc", not(feature = "bvh")))]
-mod no_bvh;
+#[cfg(feature = "alloc")]
+mod median_tree;
+#[cfg(feature = "alloc")]
+mod wide;
 
 #[cfg(feature = "bvh")]
 mod bvh;
-#[cfg(feature = "bvh")]
-mod wide;
 
 #[cfg(feature = "bvh")]
 pub use bvh::*;
 pub use hemisphere::*;
 #[cfg(feature = "alloc")]
+pub use median_tree::*;
+#[cfg(feature = "alloc")]
 pub use mesh::*;
-#[cfg(all(feature = "alloc", not(feature = "bvh")))]
-pub use no_bvh::tree;
 pub use occluders::{BruteForce, Occluders};
 pub use polygon_occluders::PolygonOccluders;
 pub use ray::*;

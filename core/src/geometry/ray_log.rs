@@ -17,34 +17,34 @@ pub trait RayLog: Sync {
     fn record(&self, ray: &Ray, kind: RayKind);
 }
 
-/// Takes down nothing, at no cost.
-#[derive(Clone, Copy, Debug)]
-pub struct NoLog;
-
-impl RayLog for NoLog {
-    #[inline]
-    fn record(&self, _: &Ray, _: RayKind) {}
-}
-
 /// Occluders whose rays are taken down.
-#[derive(Clone, Copy, Debug)]
-pub struct Logged<'a, O, L> {
+#[derive(Clone, Copy)]
+pub struct Logged<'a, O> {
     /// What is asked for hits.
     pub occluders: O,
-    /// What takes down the rays.
-    pub log: &'a L,
+    /// What takes down the rays, if anything does.
+    pub log: Option<&'a dyn RayLog>,
 }
 
-impl<O: Occluders, L: RayLog> Occluders for Logged<'_, O, L> {
+impl<O> Logged<'_, O> {
+    #[inline]
+    fn record(&self, ray: &Ray, kind: RayKind) {
+        if let Some(log) = self.log {
+            log.record(ray, kind);
+        }
+    }
+}
+
+impl<O: Occluders> Occluders for Logged<'_, O> {
     #[inline]
     fn first(&self, ray: &Ray, place: impl Fn(&Hit) -> Option<f32>) -> Option<Hit> {
-        self.log.record(ray, RayKind::Closest);
+        self.record(ray, RayKind::Closest);
         self.occluders.first(ray, place)
     }
 
     #[inline]
     fn any(&self, ray: &Ray, stop: impl FnMut(&Hit) -> bool) -> bool {
-        self.log.record(ray, RayKind::AnyHit);
+        self.record(ray, RayKind::AnyHit);
         self.occluders.any(ray, stop)
     }
 }

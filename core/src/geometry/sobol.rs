@@ -55,6 +55,12 @@ fn owen(x: u32, seed: u32) -> u32 {
     x.reverse_bits()
 }
 
+/// The place of a point in a shuffled sequence: points of sequences that are shuffled by different seeds are paired by
+/// chance, and still every prefix of a power of two is stratified.
+pub fn shuffled(index: u32, seed: u32) -> u32 {
+    owen(index, seed)
+}
+
 /// Mixes two numbers into one that looks random.
 pub fn hash(a: u32, b: u32) -> u32 {
     let mut x = a ^ b.wrapping_mul(0x9e37_79b9).rotate_left(15);

@@ -4,6 +4,13 @@ use glam::{Vec2, Vec3};
 
 use super::{Hit, Ray};
 
+/// How far above a triangle rays must start, in meters: beyond the rounding of its corners and of points on it.
+#[inline]
+pub fn lift(corners: &[Vec3; 3]) -> f32 {
+    let [a, b, c] = corners;
+    5e-6 * a.abs().max(b.abs()).max(c.abs()).max_element().max(1e-6)
+}
+
 /// A ray prepared for many triangles: the axes permuted and sheared so that it runs along +z.
 ///
 /// Neighbors that share an edge leave no gap between them. Woop, Benthin and Wald,

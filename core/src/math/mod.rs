@@ -3,6 +3,8 @@
 //! The functions here are those of `f32`. What has to be exact is generic over [`Real`], `f32` or `f64`, and over
 //! [`Vector`], glam's `Vec3`, `Vec3A` or `DVec3`; what has no directions, over any [`VectorSpace`].
 
+#[cfg(all(target_arch = "arm", target_abi = "eabihf", any(feature = "libm", not(feature = "std"))))]
+mod hardware_sqrt;
 mod real;
 mod space;
 mod vector;
@@ -17,8 +19,13 @@ mod single {
     pub use libm::{
         acosf as acos, asinf as asin, atan2f as atan2, atanf as atan, ceilf as ceil, cosf as cos, exp2f as exp2,
         expf as exp, expm1f as exp_m1, floorf as floor, log1pf as ln_1p, log2f as log2, logf as ln, powf,
-        roundf as round, sinf as sin, sqrtf as sqrt, tanf as tan,
+        roundf as round, sinf as sin, tanf as tan,
     };
+
+    #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
+    pub use super::hardware_sqrt::sqrt;
+    #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
+    pub use libm::sqrtf as sqrt;
 
     /// Sine and cosine of an angle in radians.
     pub fn sin_cos(x: f32) -> (f32, f32) {

@@ -57,11 +57,13 @@
 //! converged, and give an infinite bound.
 //!
 //! Each is also a [`Solver`] that goes step by step, for views that show what is there and for machines that have other
-//! things to do.
+//! things to do; a [`GaussSeidelSweep`] stops after any number of patches. [`Reciprocal`] is a matrix in a quarter of its
+//! memory, for small targets.
 
 mod chebyshev;
 mod conjugate_gradient;
 mod decay;
+mod exchanges;
 mod gauss_seidel;
 mod jacobi;
 mod over_relaxation;
@@ -74,6 +76,7 @@ mod system;
 pub use chebyshev::*;
 pub use conjugate_gradient::*;
 pub use decay::*;
+pub use exchanges::*;
 pub use gauss_seidel::*;
 pub use jacobi::*;
 pub use over_relaxation::*;

@@ -16,7 +16,7 @@ pub trait FormFactors {
     /// `sum_j F_ij b_j`: what patch `i` receives.
     fn receive<S: Spectrum<Scalar = Self::Scalar>>(&self, i: usize, radiosity: &[S]) -> S {
         let mut sum = S::default();
-        self.row(i, |j, factor| sum += radiosity[j] * factor);
+        self.row(i, |j, factor| sum += radiosity.get(j).copied().unwrap_or_default() * factor);
         sum
     }
 
@@ -60,7 +60,7 @@ impl<R: Real> FormFactors for DenseRows<'_, R> {
 }
 
 /// A radiosity system: what the patches emit and reflect. All slices have one entry for each patch, in the order of the
-/// form factors; a solver panics where one is shorter.
+/// form factors; patches beyond the end of one emit or reflect nothing.
 #[derive(Debug)]
 pub struct System<'a, S, F> {
     /// Exitance `e` of each patch, or emitted radiance, when all is in radiances.
@@ -107,6 +107,7 @@ impl<'a, S: Spectrum, F: FormFactors<Scalar = S::Scalar>> System<'a, S, F> {
 
     /// What leaves patch `i` that receives this.
     pub(super) fn reflect(&self, i: usize, received: S) -> S {
-        self.exitance[i] + self.reflectance[i] * received
+        let of = |slice: &[S]| slice.get(i).copied().unwrap_or_default();
+        of(self.exitance) + of(self.reflectance) * received
     }
 }

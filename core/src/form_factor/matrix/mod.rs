@@ -10,6 +10,7 @@ mod error;
 #[cfg(feature = "alloc")]
 mod owned;
 mod sparse;
+mod symmetric;
 
 pub use closure::*;
 pub use dense::*;
@@ -17,6 +18,7 @@ pub use error::*;
 #[cfg(feature = "alloc")]
 pub use owned::*;
 pub use sparse::*;
+pub use symmetric::*;
 
 use crate::math::Real;
 

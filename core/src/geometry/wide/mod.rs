@@ -5,14 +5,14 @@ mod lanes;
 mod leaf;
 mod node;
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", feature = "bvh"))]
 mod avx2;
-#[cfg(not(target_arch = "x86_64"))]
+#[cfg(not(all(target_arch = "x86_64", feature = "bvh")))]
 mod plain;
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", feature = "bvh"))]
 pub use avx2::Level;
-#[cfg(not(target_arch = "x86_64"))]
+#[cfg(not(all(target_arch = "x86_64", feature = "bvh")))]
 pub use plain::Level;
 
 pub use collapse::{Binary, Content};
