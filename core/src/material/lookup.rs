@@ -7,13 +7,16 @@ use glam::{Vec2, Vec3, Vec4};
 use super::{AlphaMode, Material, Texture, TextureRef, UvSet};
 
 impl Material {
-    /// Diffuse reflectance per linear RGB channel, in `[0, 1]`.
+    /// Diffuse reflectance per linear RGB channel, in `[0, 1]`; of a mirror 0.
     ///
     /// `uv_0` and `uv_1` are the coordinates of the mesh there, NaN where it has none; `color` is its vertex color, white where it has none.
     pub fn reflectance_at(&self, textures: &[Texture], uv_0: Vec2, uv_1: Vec2, color: Vec4) -> Vec3 {
         let base = self.base_color_at(textures, uv_0, uv_1, color).truncate();
-        let metallic = self.metallic * lookup(&self.metallic_texture, textures, uv_0, uv_1).z;
-        base.map(saturate) * (1.0 - saturate(metallic))
+        let [metallic, roughness] = self.metal_at(textures, uv_0, uv_1);
+        if self.is_mirror_of(metallic, roughness) {
+            return Vec3::ZERO;
+        }
+        base.map(saturate) * (1.0 - metallic)
     }
 
     /// Reflectance there if the base color were white, in `[0, 1]`: what textures and vertex colors make of it.
@@ -45,7 +48,7 @@ impl Material {
 
     /// Whether no light passes anywhere.
     pub fn is_opaque(&self) -> bool {
-        self.alpha == AlphaMode::Opaque
+        self.alpha == AlphaMode::Opaque && !self.is_glass()
     }
 
     /// Whether it shines, at least where its texture is not black.
@@ -58,7 +61,13 @@ impl Material {
         [&self.base_color_texture, &self.metallic_texture, &self.emissive_texture].into_iter().any(Option::is_some)
     }
 
-    fn base_color_at(&self, textures: &[Texture], uv_0: Vec2, uv_1: Vec2, color: Vec4) -> Vec4 {
+    /// Metallic and roughness there, each in `[0, 1]`.
+    pub(super) fn metal_at(&self, textures: &[Texture], uv_0: Vec2, uv_1: Vec2) -> [f32; 2] {
+        let texture = lookup(&self.metallic_texture, textures, uv_0, uv_1);
+        [saturate(self.metallic * texture.z), saturate(self.roughness * texture.y)]
+    }
+
+    pub(super) fn base_color_at(&self, textures: &[Texture], uv_0: Vec2, uv_1: Vec2, color: Vec4) -> Vec4 {
         self.base_color * lookup(&self.base_color_texture, textures, uv_0, uv_1) * color
     }
 }
@@ -78,7 +87,7 @@ fn lookup(texture: &Option<TextureRef>, textures: &[Texture], uv_0: Vec2, uv_1: 
 }
 
 /// Into `[0, 1]`, NaN to 0.
-fn saturate(x: f32) -> f32 {
+pub(super) fn saturate(x: f32) -> f32 {
     if x > 0.0 { x.min(1.0) } else { 0.0 }
 }
 

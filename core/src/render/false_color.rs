@@ -47,10 +47,12 @@ pub enum FalseColor {
     Invalid,
     /// The step of light across each seam, up to 10 %, at the texels that it touches.
     Seams,
+    /// The true error of each texel, up to 10 %, as far as [`true_errors`](super::true_errors) found it.
+    Truth,
 }
 
 impl FalseColor {
-    /// All of them.
+    /// All that a bake tells by itself.
     pub const ALL: [Self; 4] = [Self::Density, Self::Error, Self::Invalid, Self::Seams];
 
     /// A word for it.
@@ -60,6 +62,7 @@ impl FalseColor {
             Self::Error => "error",
             Self::Invalid => "invalid",
             Self::Seams => "seams",
+            Self::Truth => "truth",
         }
     }
 
@@ -77,6 +80,10 @@ impl FalseColor {
                     colors[seam.texel as usize] = heat(seam.step / LARGEST);
                 }
                 colors
+            }
+            Self::Truth => {
+                let errors = bake.true_errors.get(image).map_or(&[][..], Vec::as_slice);
+                texels.map(|at| errors.get(at).map_or(PLAIN, |error| of_truth(*error))).collect()
             }
         }
     }
@@ -123,7 +130,9 @@ pub fn false_color(
     let usual = bake.report.texels_per_meter;
     match shown {
         FalseColor::Density => draw_scale(&mut rgb, width as usize, [usual / SPREAD, usual * SPREAD], "/M"),
-        FalseColor::Error | FalseColor::Seams => draw_scale(&mut rgb, width as usize, [0.0, 100.0 * LARGEST], "%"),
+        FalseColor::Error | FalseColor::Seams | FalseColor::Truth => {
+            draw_scale(&mut rgb, width as usize, [0.0, 100.0 * LARGEST], "%")
+        }
         FalseColor::Invalid => {}
     }
     Ok(rgb)
@@ -210,6 +219,10 @@ fn of_error(lightmap: &LightmapImage, at: usize) -> [u8; 3] {
     }
 }
 
+fn of_truth(error: f32) -> [u8; 3] {
+    if error.is_nan() { PLAIN } else { heat(error / LARGEST) }
+}
+
 fn of_state(lightmap: &LightmapImage, at: usize) -> [u8; 3] {
     match lightmap.states[at] {
         TexelState::Valid => checker(lightmap, at, GRAYS),
@@ -266,6 +279,9 @@ mod tests {
         assert!(near(middle(&bake, FalseColor::Seams), PLAIN));
         bake.images.iter_mut().for_each(|image| image.states.fill(TexelState::Valid));
         assert!(near(middle(&bake, FalseColor::Error), heat(1.0)));
+        assert!(near(middle(&bake, FalseColor::Truth), PLAIN));
+        bake.true_errors = bake.images.iter().map(|image| vec![0.5 * LARGEST; image.texels.len()]).collect();
+        assert!(near(middle(&bake, FalseColor::Truth), heat(0.5)));
         let texels = bake.images[0].texels.len() as u32;
         bake.seams = (0..texels).map(|texel| crate::lightmap::SeamTexel { image: 0, texel, step: 0.0 }).collect();
         assert!(near(middle(&bake, FalseColor::Seams), heat(0.0)));

@@ -1,8 +1,11 @@
-//! The baked scene as a camera sees it, computed on the CPU.
+//! The rendering equation by paths of light ([`PathTracer`]), and the baked scene as a camera sees it, on the CPU.
 
 mod camera;
+mod path;
 mod tone;
 
+#[cfg(feature = "bvh")]
+mod difference;
 #[cfg(feature = "bvh")]
 mod false_color;
 #[cfg(feature = "bvh")]
@@ -16,9 +19,12 @@ mod view;
 
 pub use camera::*;
 #[cfg(feature = "bvh")]
+pub use difference::*;
+#[cfg(feature = "bvh")]
 pub use false_color::*;
 #[cfg(feature = "bvh")]
 pub use overview::*;
+pub use path::*;
 #[cfg(feature = "bvh")]
 pub use preview::*;
 pub use tone::*;

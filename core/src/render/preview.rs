@@ -7,7 +7,6 @@ use glam::{DVec3, Vec2, Vec3};
 use super::view::{View, lightmap_place};
 use super::{Camera, automatic_ev100, exposure, khronos_pbr_neutral, valid_texels};
 use crate::bake::Bake;
-use crate::composite::{PremultipliedRgba, front_to_back};
 use crate::geometry::{Hit, Ray};
 use crate::lightmap::LightmapImage;
 use crate::material::linear_to_srgb;
@@ -15,10 +14,11 @@ use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 
-/// Rays for each pixel, in each direction.
-const SAMPLES: u32 = 4;
+/// Rays for each pixel, in each direction and in all.
+const SIDE: u32 = 4;
+const SAMPLES: u32 = SIDE * SIDE;
 
-/// Transparent layers that are looked through at most.
+/// Transparent layers and mirrors by way of which a ray sees at most.
 const LAYERS: usize = 64;
 
 /// A picture, row by row from the top.
@@ -47,19 +47,27 @@ pub fn preview(
     progress: &Progress,
 ) -> Result<Preview, Cancelled> {
     let ev100 = ev100.unwrap_or_else(|| automatic_ev100(&bake.images));
-    let picture = Picture {
-        view: View::new(scene),
-        bake,
-        mean: mean_texel(&bake.images),
-        camera,
-        size: Vec2::new(width as f32, height as f32),
-        exposure: exposure(ev100),
-    };
-    let row = |y: usize| (0..width).map(move |x| (x, y as u32));
-    let rgb = Workers::new(bake.report.threads).map(height as usize, 1, progress, |rows| {
-        rows.map(|y| row(y).map(|(x, y)| picture.pixel(x, y)).collect::<Vec<_>>()).collect()
+    let exposure = exposure(ev100);
+    let rgb = Picture::new(scene, bake, camera, [width, height]).pixels(progress, |samples| {
+        let mean = samples.map(|radiance| khronos_pbr_neutral(radiance * exposure)).sum::<Vec3>() / SAMPLES as f32;
+        mean.to_array().map(linear_to_srgb)
     })?;
-    Ok(Preview { rgb: rgb.concat(), ev100 })
+    Ok(Preview { rgb, ev100 })
+}
+
+/// What [`preview`] shows, before exposure and tone mapping: radiance in cd/m2, row by row from the top.
+///
+/// # Errors
+///
+/// Where the progress was told to cancel.
+pub fn lightmapped(
+    scene: &Scene,
+    bake: &Bake,
+    camera: &Camera,
+    size: [u32; 2],
+    progress: &Progress,
+) -> Result<Vec<Vec3>, Cancelled> {
+    Picture::new(scene, bake, camera, size).pixels(progress, |samples| samples.sum::<Vec3>() / SAMPLES as f32)
 }
 
 /// Everything that a pixel depends on.
@@ -69,36 +77,57 @@ struct Picture<'a> {
     /// Light on surfaces that have no lightmap.
     mean: Vec3,
     camera: &'a Camera,
-    size: Vec2,
-    exposure: f32,
+    size: [u32; 2],
 }
 
-impl Picture<'_> {
-    /// The mean over a grid of rays, each exposed and tone mapped on its own so that edges at lamps stay smooth.
-    fn pixel(&self, x: u32, y: u32) -> [u8; 3] {
-        let mut sum = Vec3::ZERO;
-        for sample in 0..SAMPLES * SAMPLES {
-            let within = (Vec2::new((sample % SAMPLES) as f32, (sample / SAMPLES) as f32) + 0.5) / SAMPLES as f32;
-            let point = (Vec2::new(x as f32, y as f32) + within) / self.size;
-            let radiance = self.radiance(&self.camera.ray(point, self.size.x / self.size.y));
-            sum += khronos_pbr_neutral(radiance * self.exposure);
-        }
-        (sum / (SAMPLES * SAMPLES) as f32).to_array().map(linear_to_srgb)
+impl<'a> Picture<'a> {
+    fn new(scene: &'a Scene, bake: &'a Bake, camera: &'a Camera, size: [u32; 2]) -> Self {
+        Self { view: View::new(scene), bake, mean: mean_texel(&bake.images), camera, size }
     }
 
-    /// What arrives along a ray, through all transparent layers.
+    /// All pixels, row by row, each made of its samples: edges at lamps stay smooth where these are tone mapped one by one.
+    fn pixels<T: Send>(
+        &self,
+        progress: &Progress,
+        pixel: impl Fn(&mut dyn Iterator<Item = Vec3>) -> T + Sync,
+    ) -> Result<Vec<T>, Cancelled> {
+        let [width, height] = self.size;
+        let row = |y: usize| (0..width).map(|x| pixel(&mut self.samples(x, y as u32))).collect::<Vec<T>>();
+        let workers = Workers::new(self.bake.report.threads);
+        let rows = workers.map(height as usize, 1, progress, |rows| rows.map(row).collect())?;
+        Ok(rows.into_iter().flatten().collect())
+    }
+
+    /// The radiance along a grid of rays.
+    fn samples(&self, x: u32, y: u32) -> impl Iterator<Item = Vec3> {
+        let size = Vec2::from(self.size.map(|side| side as f32));
+        (0..SAMPLES).map(move |sample| {
+            let within = (Vec2::new((sample % SIDE) as f32, (sample / SIDE) as f32) + 0.5) / SIDE as f32;
+            let point = (Vec2::new(x as f32, y as f32) + within) / size;
+            self.radiance(&self.camera.ray(point, size.x / size.y))
+        })
+    }
+
+    /// What arrives along a ray, through all transparent layers and by way of mirrors.
     fn radiance(&self, ray: &Ray) -> Vec3 {
-        let mut last = None;
-        let layers = core::iter::from_fn(|| {
-            let hit = self.view.nearest(ray, last.as_ref())?;
-            let opacity = self.view.opacity(&hit);
+        let (mut ray, mut last) = (*ray, None);
+        let (mut arrived, mut left) = (Vec3::ZERO, Vec3::ONE);
+        for _ in 0..LAYERS {
+            let Some(hit) = self.view.nearest(&ray, last.as_ref()) else { return arrived + left * self.view.scene.sky };
+            if let Some(tint) = self.view.mirror(&hit) {
+                left *= tint;
+                (ray, last) = (self.view.reflected(&ray, &hit), None);
+                continue;
+            }
             let reflected = self.view.reflectance(&hit) * self.baked_texel(&hit).unwrap_or(self.mean);
-            let color = reflected + self.view.emission(&hit);
+            arrived += left * (reflected + self.view.emission(&hit)) * self.view.opacity(&hit);
+            left *= self.view.shows_behind(&hit);
+            if left == Vec3::ZERO {
+                break;
+            }
             last = Some(hit);
-            Some(PremultipliedRgba::adding(color * opacity, opacity))
-        });
-        let sky = PremultipliedRgba::adding(self.view.scene.sky, 1.0);
-        front_to_back(layers.take(LAYERS).chain([sky])).rgb()
+        }
+        arrived
     }
 
     /// Irradiance / pi from the lightmap of a surface, if it has one.
@@ -109,7 +138,7 @@ impl Picture<'_> {
 }
 
 /// Mixes the four texels around `uv` as graphics hardware does.
-fn bilinear(image: &LightmapImage, uv: Vec2) -> Vec3 {
+pub(super) fn bilinear(image: &LightmapImage, uv: Vec2) -> Vec3 {
     let size = Vec2::new(image.width as f32, image.height as f32);
     let position = uv * size - 0.5;
     let corner = position.floor();

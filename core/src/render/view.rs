@@ -2,7 +2,7 @@
 
 use core::ops::Deref;
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use crate::bake::Bake;
 use crate::geometry::{Bvh, Hit, Occluders, Ray};
@@ -33,8 +33,21 @@ impl<'a> View<'a> {
     /// The nearest thing that is to be seen along a ray, behind another hit if there is one.
     pub fn nearest(&self, ray: &Ray, behind: Option<&Hit>) -> Option<Hit> {
         let is_next = |hit: &Hit| behind.is_none_or(|other| is_behind(hit, other));
-        let is_seen = |hit: &Hit| is_next(hit) && self.shows_side(hit) && self.opacity(hit) > 0.0;
+        let is_there = |hit: &Hit| self.material(hit.triangle).is_glass() || self.opacity(hit) > 0.0;
+        let is_seen = |hit: &Hit| is_next(hit) && self.shows_side(hit) && is_there(hit);
         self.tree.first(ray, |hit| is_seen(hit).then_some(hit.distance))
+    }
+
+    /// What is behind a hit shows so much of itself, for each channel: blended things hide a share of it, glass colors it.
+    pub fn shows_behind(&self, hit: &Hit) -> Vec3 {
+        let material = self.material(hit.triangle);
+        if !material.is_glass() {
+            return Vec3::splat(1.0 - self.opacity(hit));
+        }
+        // Bodies show one of their two sides, as sheets do.
+        let of_body =
+            if self.absorption(hit).is_some() { material.transmittance(material.thickness) } else { Vec3::ONE };
+        self.filter(hit) * of_body
     }
 
     /// Whether the side that a ray meets can be seen at all: one-sided surfaces are seen from their front only.

@@ -1,6 +1,7 @@
 //! What is baked: surfaces with their materials, and lights.
 
 mod cornell;
+mod specular;
 mod world;
 
 pub use cornell::*;

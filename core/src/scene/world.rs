@@ -5,8 +5,10 @@ use alloc::vec::Vec;
 
 use glam::{Vec2, Vec3, Vec4};
 
+use super::specular::{is_closed, plane_mirrors};
 use super::{CurvedMesh, Scene, Surface};
-use crate::geometry::{Hit, Mesh, normal_and_area};
+use crate::geometry::{Hit, Mesh, Ray, lift, normal_and_area};
+use crate::light::PlaneMirror;
 use crate::material::Material;
 
 /// So large a share of the way to the middle of its triangle is a point moved before the normal of a curved surface is
@@ -30,6 +32,12 @@ pub struct World<'a> {
     pub blockers: usize,
     /// For each triangle that was left out because a corner is not finite where it comes from.
     pub not_finite: Vec<Source>,
+    /// The planes in which lamps are seen.
+    pub mirrors: Vec<PlaneMirror>,
+    /// For each triangle the [`PlaneMirror::number`] of its plane, or `u32::MAX`; empty where no lamp is seen in any.
+    pub mirror_of: Vec<u32>,
+    /// For each surface whether it encloses a body of glass.
+    is_body: Vec<bool>,
     /// For each mesh the curved surface that it stands for.
     curved: Vec<Option<&'a CurvedMesh>>,
 }
@@ -50,6 +58,10 @@ pub struct Sides {
     pub is_opaque: bool,
     /// Whether the back reflects and emits too.
     pub both: bool,
+    /// Whether it is a mirror, at least in places.
+    pub is_mirror: bool,
+    /// Whether light that passes may change its color.
+    pub filters: bool,
 }
 
 impl<'a> World<'a> {
@@ -63,11 +75,15 @@ impl<'a> World<'a> {
             sides: Vec::new(),
             blockers: 0,
             not_finite: Vec::new(),
+            mirrors: Vec::new(),
+            mirror_of: Vec::new(),
+            is_body: scene.surfaces.iter().map(|surface| is_body(scene, surface)).collect(),
             curved: curved_of_meshes(scene),
         };
         world.add_surfaces(|surface| surface.casts);
         world.blockers = world.corners.len();
         world.add_surfaces(|surface| !surface.casts);
+        (world.mirrors, world.mirror_of) = plane_mirrors(&world);
         world
     }
 
@@ -93,7 +109,12 @@ impl<'a> World<'a> {
             self.normals.push(normal);
             self.sources.push(source);
             let material = &self.scene.materials[surface.material];
-            self.sides.push(Sides { is_opaque: material.is_opaque(), both: material.double_sided });
+            self.sides.push(Sides {
+                is_opaque: material.is_opaque(),
+                both: material.double_sided,
+                is_mirror: material.may_be_mirror(),
+                filters: material.may_filter(!mesh.colors.is_empty()),
+            });
         }
     }
 
@@ -112,8 +133,7 @@ impl<'a> World<'a> {
     /// How far above a triangle rays must start, in meters: beyond the rounding of its corners and of points on it.
     #[inline]
     pub fn lift(&self, triangle: u32) -> f32 {
-        let [a, b, c] = self.corners[triangle as usize];
-        5e-6 * a.abs().max(b.abs()).max(c.abs()).max_element().max(1e-6)
+        lift(&self.corners[triangle as usize])
     }
 
     /// The material of a triangle.
@@ -150,15 +170,76 @@ impl<'a> World<'a> {
         material.emission_at(&self.scene.textures, uv_0, uv_1)
     }
 
-    /// The share of light that the surface blocks at a hit, in `[0, 1]`.
+    /// The share of light that does not pass straight on at a hit, in `[0, 1]`; it passes out of bodies of glass.
     #[inline]
     pub fn opacity(&self, hit: &Hit) -> f32 {
         if self.sides[hit.triangle as usize].is_opaque {
             return 1.0;
         }
+        if self.leaves_glass(hit) {
+            return 0.0;
+        }
         let material = self.material(hit.triangle);
         let [uv_0, uv_1] = self.uvs(hit);
-        material.alpha_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
+        material.opacity_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
+    }
+
+    /// What the light that meets a surface is multiplied by where it passes straight on, in `[0, 1]`. Bodies of glass color
+    /// it where it enters; what they take from it on its way is left out.
+    pub fn filter(&self, hit: &Hit) -> Vec3 {
+        let side = self.sides[hit.triangle as usize];
+        if side.is_opaque || !side.filters {
+            return Vec3::splat(1.0 - self.opacity(hit));
+        }
+        if self.leaves_glass(hit) {
+            return Vec3::ONE;
+        }
+        let material = self.material(hit.triangle);
+        let [uv_0, uv_1] = self.uvs(hit);
+        let filter = material.filter_at(&self.scene.textures, uv_0, uv_1, self.color(hit));
+        let is_sheet = material.is_glass() && !self.is_of_body(hit);
+        if is_sheet { filter * material.transmittance(material.thickness) } else { filter }
+    }
+
+    /// What a body of glass takes from light, in 1/m, if a hit is on the surface of one.
+    pub fn absorption(&self, hit: &Hit) -> Option<Vec3> {
+        self.is_of_body(hit).then(|| self.material(hit.triangle).absorption)
+    }
+
+    /// What a mirror at a hit multiplies light by, in `[0, 1]`, if one is there and shows to where the ray comes from.
+    #[inline]
+    pub fn mirror(&self, hit: &Hit) -> Option<Vec3> {
+        let side = self.sides[hit.triangle as usize];
+        if !side.is_mirror || !(hit.front || side.both) {
+            return None;
+        }
+        let [uv_0, uv_1] = self.uvs(hit);
+        self.material(hit.triangle).mirror_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
+    }
+
+    /// The ray that a mirror sends on. Where normals are smooth it stays on the side of the triangle where it came from.
+    pub fn reflected(&self, ray: &Ray, hit: &Hit) -> Ray {
+        let side = if hit.front { 1.0 } else { -1.0 };
+        let [flat, smooth] =
+            [self.normals[hit.triangle as usize], self.shading_normal(hit)].map(|normal| normal * side);
+        let reflected = ray.direction - smooth * (2.0 * ray.direction.dot(smooth));
+        let height = reflected.dot(flat);
+        let direction = if height < 0.0 { reflected - flat * (2.0 * height) } else { reflected };
+        let point = hit.interpolate(self.corners[hit.triangle as usize]);
+        Ray { origin: point + flat * self.lift(hit.triangle), direction, end: f32::INFINITY }
+    }
+
+    /// Whether no triangle that blocks light is a mirror or changes the color of light that passes.
+    pub fn is_plain(&self) -> bool {
+        !self.sides[..self.blockers].iter().any(|side| side.is_mirror || side.filters)
+    }
+
+    fn is_of_body(&self, hit: &Hit) -> bool {
+        self.is_body[self.sources[hit.triangle as usize].surface as usize]
+    }
+
+    fn leaves_glass(&self, hit: &Hit) -> bool {
+        !hit.front && self.is_of_body(hit)
     }
 
     /// The normal at a point of a triangle, of length 1: that of the curved surface which the mesh stands for, else the
@@ -222,6 +303,11 @@ impl<'a> World<'a> {
     fn mesh_of(&self, source: Source) -> &'a Mesh {
         &self.scene.meshes[self.surface_of(source).mesh]
     }
+}
+
+fn is_body(scene: &Scene, surface: &Surface) -> bool {
+    let is_glass = scene.materials.get(surface.material).is_some_and(Material::is_glass);
+    is_glass && scene.meshes.get(surface.mesh).is_some_and(is_closed)
 }
 
 fn curved_of_meshes(scene: &Scene) -> Vec<Option<&CurvedMesh>> {

@@ -34,6 +34,8 @@ pub trait Spectrum:
     fn max_abs(self) -> Self::Scalar;
     /// Applies a function of two numbers band by band.
     fn zip(self, other: Self, apply: impl Fn(Self::Scalar, Self::Scalar) -> Self::Scalar) -> Self;
+    /// The bands whose bit is set, from the lowest on; the others, and those beyond the 32nd, become zero.
+    fn keep(self, bits: u32) -> Self;
 }
 
 macro_rules! gray {
@@ -49,6 +51,9 @@ macro_rules! gray {
             }
             fn zip(self, other: Self, apply: impl Fn(Self, Self) -> Self) -> Self {
                 apply(self, other)
+            }
+            fn keep(self, bits: u32) -> Self {
+                if bits & 1 == 1 { self } else { 0.0 }
             }
         }
     };
@@ -70,6 +75,10 @@ macro_rules! rgb {
             }
             fn zip(self, other: Self, apply: impl Fn($real, $real) -> $real) -> Self {
                 Self::new(apply(self.x, other.x), apply(self.y, other.y), apply(self.z, other.z))
+            }
+            fn keep(self, bits: u32) -> Self {
+                let kept = |band: u32, value: $real| if bits >> band & 1 == 1 { value } else { 0.0 };
+                Self::new(kept(0, self.x), kept(1, self.y), kept(2, self.z))
             }
         }
     };
@@ -134,5 +143,8 @@ impl<const N: usize, R: Real> Spectrum for Bands<N, R> {
     }
     fn zip(self, other: Self, apply: impl Fn(R, R) -> R) -> Self {
         Self(core::array::from_fn(|band| apply(self.0[band], other.0[band])))
+    }
+    fn keep(self, bits: u32) -> Self {
+        Self(core::array::from_fn(|band| if band < 32 && bits >> band & 1 == 1 { self.0[band] } else { R::ZERO }))
     }
 }
