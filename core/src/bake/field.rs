@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::pieces::Pieces;
 use crate::geometry::{Hit, Occluders};
-use crate::lightmap::{NONE, Patches, Texels};
+use crate::lightmap::{NONE, Patches, Seen, Texels};
 use crate::transport::{Size, Surfaces, Tracer};
 
 /// A ray looks at a square of 4 x 4 texels where its cone is wider than so many of their sides.
@@ -49,13 +49,13 @@ impl<'a, O: Occluders> Field<'a, O> {
         Self { tracer, texels, patches, surfaces, spread, looks }
     }
 
-    /// The column that a ray sees: the sky where it hits nothing.
+    /// What a ray sees: the sky where it hits nothing.
     ///
     /// A ray of many stands for a cone. What is met far away is looked at as coarsely as the cone is wide there. That is
     /// less noise for the same light.
     #[inline]
-    pub fn column(&self, hit: Option<&Hit>) -> u32 {
-        let Some(hit) = hit else { return self.surfaces.sky() };
+    pub fn look(&self, hit: Option<&Hit>) -> Seen {
+        let Some(hit) = hit else { return unknown(self.surfaces.sky()) };
         let texel = if hit.front { self.texels.at(hit) } else { None };
         match texel.map(|texel| (texel, self.looks[texel as usize])) {
             Some((texel, look)) if look.area > 0.0 => self.of_texel(texel, look, hit.distance),
@@ -64,7 +64,12 @@ impl<'a, O: Occluders> Field<'a, O> {
     }
 
     #[inline]
-    fn of_texel(&self, texel: u32, look: Look, distance: f32) -> u32 {
+    fn of_texel(&self, texel: u32, look: Look, distance: f32) -> Seen {
+        Seen { column: self.column(texel, look, distance), texel }
+    }
+
+    #[inline]
+    fn column(&self, texel: u32, look: Look, distance: f32) -> u32 {
         let Look { area, patch, cells: [four, two] } = look;
         let width = distance * self.spread;
         if width * width > self.patches.list[patch as usize].area {
@@ -78,14 +83,19 @@ impl<'a, O: Occluders> Field<'a, O> {
     }
 
     #[inline(never)]
-    fn look_closely(&self, hit: &Hit) -> u32 {
+    fn look_closely(&self, hit: &Hit) -> Seen {
         match self.patches.at(self.tracer, self.texels, hit) {
-            None => self.surfaces.black(),
+            None => unknown(self.surfaces.black()),
             Some((patch, Some(texel))) if self.patches.list[patch as usize].side > 0.0 => {
                 let look = Look { area: self.texels.list[texel as usize].area, ..self.looks[texel as usize] };
                 self.of_texel(texel, look, hit.distance)
             }
-            Some((patch, _)) => patch,
+            Some((patch, _)) => unknown(patch),
         }
     }
+}
+
+/// What has no texel that is here.
+fn unknown(column: u32) -> Seen {
+    Seen { column, texel: NONE }
 }

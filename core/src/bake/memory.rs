@@ -29,6 +29,8 @@ const ELSEWHERE: u64 = 12;
 const PATCH: u64 = 190;
 /// For each ray of a row of form factors, if all end on patches of their own.
 const ENTRY: u64 = 4;
+/// Of a ray that goes through colored glass each channel may end elsewhere, and what is absorbed on its way.
+const ENDS_OF_COLORED: u64 = 4;
 /// For each covered texel of a transport: how it is mixed, and its places.
 const KEPT: u64 = 200;
 /// For each covered texel of a transport and each lamp: what the lamp gives it, if it shines on all, with the gaps.
@@ -123,7 +125,8 @@ impl Needs {
         let triangles: u64 = scene.surfaces.iter().map(count).sum();
         let without = scene.surfaces.iter().filter(|surface| surface.receiver == Receiver::Nothing);
         let sides = if scene.materials.iter().any(|material| material.double_sided) { 2 } else { 1 };
-        let patch = sides * (PATCH + u64::from(budget.row) * ENTRY);
+        let ends = ends_of_ray(scene);
+        let patch = sides * (PATCH + u64::from(budget.row) * ENTRY * ends);
         Self {
             images: layout.images.iter().map(|&[width, height]| u64::from(width) * u64::from(height)).collect(),
             scene: triangles * TRIANGLE + without.map(count).sum::<u64>() * patch + ALWAYS,
@@ -131,9 +134,9 @@ impl Needs {
             patch,
             kept: match settings.keep {
                 Keep::Lightmaps => 0,
-                Keep::Transport => KEPT + u64::from(budget.kept) * KEPT_ENTRY + kept_light(scene),
+                Keep::Transport => KEPT + u64::from(budget.kept) * KEPT_ENTRY * ends + kept_light(scene),
             },
-            contact: ROW + u64::from(budget.gather.rays) * ENTRY,
+            contact: ROW + u64::from(budget.gather.rays) * ENTRY * ends,
             finished,
         }
     }
@@ -202,11 +205,22 @@ impl Needs {
     }
 }
 
-/// What a transport keeps of the lamps for each texel, in bytes.
+/// On how many columns a ray may end.
+fn ends_of_ray(scene: &Scene) -> u64 {
+    let colors = |surface: &Surface| {
+        let material = &scene.materials[surface.material];
+        material.may_be_mirror() || material.may_filter(!scene.meshes[surface.mesh].colors.is_empty())
+    };
+    if scene.surfaces.iter().any(colors) { ENDS_OF_COLORED } else { 1 }
+}
+
+/// What a transport keeps of the lamps for each texel, in bytes. A mirror may show each of them to each texel, colored.
 fn kept_light(scene: &Scene) -> u64 {
+    let mirrors = scene.surfaces.iter().any(|surface| scene.materials[surface.material].may_be_mirror());
+    let lists = if mirrors { 1 + 3 } else { 1 };
     let emits = |surface: &&Surface| surface.casts && scene.materials[surface.material].is_emissive();
     let emitters = scene.surfaces.iter().filter(emits).count() as u64;
-    scene.lights.len() as u64 * KEPT_LAMP + emitters * KEPT_EMITTER
+    lists * (scene.lights.len() as u64 * KEPT_LAMP + emitters * KEPT_EMITTER)
 }
 
 #[cfg(test)]

@@ -27,11 +27,11 @@ use core::mem;
 
 use glam::{Vec3, Vec3A};
 
-use crate::geometry::{Logged, NoLog, Occluders, RayLog, hash, tree};
+use crate::geometry::{Logged, Occluders, RayLog, hash, tree};
 use crate::light::Lamps;
 use crate::lightmap::{
-    Blocks, Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, SeamTexel,
-    layout,
+    Blocks, Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, Reflectors,
+    SeamTexel, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -56,6 +56,9 @@ pub struct Bake {
     pub placements: Vec<Option<Placement>>,
     /// The texels at which seams are seen.
     pub seams: Vec<SeamTexel>,
+    /// For each lightmap the true error of each texel, relative as [`LightmapImage::errors`] are, not a number where nobody
+    /// looked; without any list until [`true_errors`](crate::render::true_errors) found them.
+    pub true_errors: Vec<Vec<f32>>,
     /// How light travels, if [`BakeSettings::keep`] asks for it.
     pub transport: Option<Transport>,
     /// What was done and how good it is.
@@ -67,6 +70,12 @@ pub struct Bake {
 /// Charts are laid out; light that comes straight from the sources is found for each texel; cells of texels become
 /// patches, and rays count the form factors between them; the radiosity equation gives the light of all bounces; each
 /// texel gathers it once.
+///
+/// All that surfaces reflect is reflected diffusely, but for mirrors, see [`Material::mirror_at`]. Light goes on from them,
+/// and straight through glass and what is blended, colored: see [`Arrival`] for what that leaves out.
+///
+/// [`Material::mirror_at`]: crate::material::Material::mirror_at
+/// [`Arrival`]: crate::transport::Arrival
 ///
 /// Where the texels of all images do not fit into the memory together, the bake goes part by part, a few images at a
 /// time. What lies in another part is seen by its patches then, as if it were far away.
@@ -80,13 +89,15 @@ pub fn bake(scene: &Scene, settings: &BakeSettings, progress: &Progress) -> Resu
         images.push((index, image));
         Ok(())
     };
-    let bake = run(scene, settings, Finished::Collected, progress, &NoLog, &mut collect)?;
+    let bake = run(scene, settings, Finished::Collected, progress, None, &mut collect)?;
     images.sort_by_key(|&(index, _)| index);
     Ok(Bake { images: images.into_iter().map(|(_, image)| image).collect(), ..bake })
 }
 
 /// Bakes as [`bake`] does, but hands over each lightmap with its index as soon as it is finished, so that all of them
-/// need not fit into the memory together; and hands every ray to `ray_log`, to trace the same rays elsewhere.
+/// need not fit into the memory together; and hands every ray to `ray_log`, if there is one, to trace the same rays
+/// elsewhere. Where there are no threads, that is also where a bake can rest: on a page, `examples/web` puts it to sleep
+/// there between two slices.
 ///
 /// Images come in any order; [`Bake::images`] stays empty. The estimate of the memory leaves room for one image and a
 /// copy of it in another form, and for [`KEPT_TEXELS`] of those before.
@@ -98,7 +109,7 @@ pub fn bake_into(
     scene: &Scene,
     settings: &BakeSettings,
     progress: &Progress,
-    ray_log: &impl RayLog,
+    ray_log: Option<&dyn RayLog>,
     take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
 ) -> Result<Bake, BakeError> {
     run(scene, settings, Finished::HandedOver, progress, ray_log, take)
@@ -109,7 +120,7 @@ fn run(
     settings: &BakeSettings,
     finished: Finished,
     progress: &Progress,
-    ray_log: &impl RayLog,
+    ray_log: Option<&dyn RayLog>,
     take: &mut dyn FnMut(usize, LightmapImage) -> Result<(), Cancelled>,
 ) -> Result<Bake, BakeError> {
     check::check(scene, settings)?;
@@ -130,8 +141,8 @@ fn run(
     let cell = plan.cell as usize;
     let mut parts = Parts::new((plan.parts, plan.cell), tracer, &layout, budget.patches, row_seeds, workers, progress)?;
     let (lamps, is_light) = emitters::lamps(&world);
-    let (lighting, room) = (&Lighting::from(scene), plan.room);
-    let course = Course { lamps: &lamps, is_light: &is_light, lighting, settings, budget, room };
+    let lighting = &Lighting::from(scene);
+    let course = Course { lamps: &lamps, is_light: &is_light, lighting, settings, budget, room: plan.room };
 
     log.enter_after(Stage::Direct, tracer);
     let (light, lit) = course.direct(&mut parts)?;
@@ -161,8 +172,8 @@ fn run(
         stages: log.finish(tracer),
         ..tally.report()
     };
-    let seams = mem::take(&mut tally.seam_texels);
-    Ok(Bake { images: Vec::new(), uvs: layout.uvs, placements: layout.placements, seams, transport, report })
+    let (Layout { uvs, placements, .. }, seams) = (layout, mem::take(&mut tally.seam_texels));
+    Ok(Bake { uvs, placements, seams, transport, report, ..Bake::default() })
 }
 
 fn laid_out(
@@ -195,11 +206,13 @@ impl<O: Occluders> Baker<'_, O> {
         match self.keep {
             Keep::Lightmaps => {
                 let strong = lamps.iter().map(|lamp| (&lamp.light, lighting.strength(lamp.origin)));
-                lights.add(&self.light(&Lamps::new(strong.collect()), 0, blocks)?, Vec3::ONE);
+                let mirrors = lamps.iter().map(|lamp| lamp.mirror.as_ref()).collect();
+                lights.add(&self.light(&Lamps::new(strong.collect()).seen_in(mirrors), 0, blocks)?, Vec3::ONE);
             }
             Keep::Transport => {
                 for (index, lamp) in lamps.iter().enumerate() {
-                    let light = self.light(&Lamps::new(vec![(&lamp.light, Vec3::ONE)]), index, blocks)?;
+                    let lamps = Lamps::new(vec![(&lamp.light, Vec3::ONE)]).seen_in(vec![lamp.mirror.as_ref()]);
+                    let light = self.light(&lamps, index, blocks)?;
                     lights.add(&light, lighting.strength(lamp.origin));
                     let light: Vec<Vec3> = light.iter().map(|light| light.irradiance).collect();
                     lights.kept.extend(LampLight::new(lamp.origin, &light));
@@ -223,15 +236,28 @@ impl<O: Occluders> Baker<'_, O> {
 
     /// What the nodes gather of the radiance of all columns, where so much of the error is `known` and rows may take so many
     /// bytes.
-    fn gather(&self, direct: &[Vec3A], radiance: &[Vec3A], (known, room): (f32, usize)) -> Result<Nodes, Cancelled> {
+    fn gather(
+        &self,
+        direct: &[Vec3A],
+        radiance: &mut [Vec3A],
+        (known, room): (f32, usize),
+    ) -> Result<Nodes, Cancelled> {
         let Pieces { tracer, texels, workers, progress, .. } = *self.pieces;
+        let reflectors = match self.keep {
+            Keep::Lightmaps => Reflectors::new(radiance, texels, self.surfaces, tracer.world),
+            // What is bright depends on the light of the bake.
+            Keep::Transport => Reflectors::default(),
+        };
+        reflectors.take_from(radiance, self.surfaces);
         let field = Field::new(self.pieces, self.surfaces, self.budget.spread());
         let gather = Gather {
             texels,
             is_valid: self.is_valid,
             tracer,
-            column: |hit: Option<&_>| field.column(hit),
+            look: |hit: Option<&_>| field.look(hit),
             radiance,
+            black: self.surfaces.black(),
+            reflectors: &reflectors,
             touches: &|texel, distance| self.pieces.touches(texel, distance),
             keep: self.keep,
             room,
@@ -239,7 +265,9 @@ impl<O: Occluders> Baker<'_, O> {
             seed: self.seeds.of(4),
         };
         let direct: Vec<f32> = direct.iter().map(|direct| direct.element_sum() / 3.0).collect();
-        gather.run(&direct, workers, progress)
+        let nodes = gather.run(&direct, workers, progress)?;
+        reflectors.give_back_to(radiance, self.surfaces);
+        Ok(nodes)
     }
 }
 

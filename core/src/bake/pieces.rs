@@ -61,17 +61,25 @@ impl<O: Occluders> Pieces<'_, O> {
         let patch = &self.patches.list[index];
         let seed = hash(self.seed, index as u32);
         let sequence = Sobol::new(seed);
-        let end = |k: u32| {
+        let leave = |k: u32| {
             let (triangle, point, normal) = self.patches.point(self.world(), self.texels, patch, &sequence, k);
             let direction = cosine_direction(sequence.square(k), normal);
-            let ray = self.tracer.leave(triangle, point, normal, direction, f32::INFINITY);
-            match self.tracer.nearest(&ray, hash(seed, k)) {
-                None => sky,
-                Some(hit) => self.patches.at(self.tracer, self.texels, &hit).map_or(black, |(patch, _)| patch),
-            }
+            self.tracer.leave(triangle, point, normal, direction, f32::INFINITY)
         };
-        let mut ends: Vec<u32> = (0..rays).map(end).collect();
+        let column = |hit: Option<&Hit>| match hit {
+            None => sky,
+            Some(hit) => self.patches.at(self.tracer, self.texels, hit).map_or(black, |(patch, _)| patch),
+        };
+        let nearest = |k: u32| column(self.tracer.nearest(&leave(k), hash(seed, k)).as_ref());
+        let parts = |k: u32| {
+            let arrival = self.tracer.follow(&leave(k), hash(seed, k));
+            arrival.columns(column(arrival.hit.as_ref()), [black + 1, black], sequence.dimension(k, 3))
+        };
         self.tracer.count(rays as usize);
+        let mut ends: Vec<u32> = match self.tracer.is_plain {
+            true => (0..rays).map(nearest).collect(),
+            false => (0..rays).flat_map(parts).collect(),
+        };
         Row::count(&mut ends)
     }
 
@@ -86,6 +94,7 @@ impl<O: Occluders> Pieces<'_, O> {
         drop(details);
         Ok(Surfaces {
             areas: self.patches.list.iter().map(|patch| patch.area).collect(),
+            presence: self.of_own(0.0, |patch| self.presence(patch)),
             materials: self.of_own(0, |patch| self.material(patch)),
             bare: self.own.clone().filter(|&patch| self.is_bare(patch)).map(|patch| patch as u32).collect(),
             patch_of: of_texel.iter().map(|&patch| if patch == NONE { black } else { patch }).collect(),
@@ -142,6 +151,20 @@ impl<O: Occluders> Pieces<'_, O> {
         };
         let world = self.world();
         world.scene.surfaces[world.sources[triangle as usize].surface as usize].material as u32
+    }
+
+    /// The share of the light that meets a patch and does not go on.
+    fn presence(&self, patch: &Patch) -> f32 {
+        let at = |site: Site| match site {
+            Site::Texel(texel) => self.texels.hit(texel),
+            Site::Triangle(triangle) => middle(triangle),
+        };
+        let stays = |hit: &Hit| match self.world().mirror(hit) {
+            Some(_) => 0.0,
+            None => self.world().opacity(hit),
+        };
+        let passes = self.patches.sites(patch).map(|(site, area)| (1.0 - stays(&at(site))) * area).sum::<f32>();
+        1.0 - passes / patch.area.max(f32::MIN_POSITIVE)
     }
 
     /// Whether no texels lie on the side of a patch.
@@ -237,7 +260,7 @@ impl<O: Occluders> Pieces<'_, O> {
                     return Vec3::ZERO;
                 }
                 self.tracer.count(1);
-                irradiance * self.tracer.visibility(&self.tracer.leave_for(triangle, point, normal, &shadow))
+                irradiance * self.tracer.arriving((triangle, point, normal), &shadow, lamps.mirror(lamp))
             };
             sum += cut.lamps.iter().map(|&lamp| seen(lamp)).sum::<Vec3>();
             let choice = lamps.choose(&cut, &guide, point, normal, sequence.dimension(k as u32, 2));

@@ -6,7 +6,7 @@ use core::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 use super::falloff::range_window;
-use super::{Cone, Emission, RectLight};
+use super::{Cone, Emission, PlaneMirror, RectLight};
 use crate::form_factor::point_to_triangle;
 use crate::geometry::{Sobol, normal_and_area};
 use crate::math;
@@ -26,6 +26,8 @@ pub struct AreaLight {
     triangles: Vec<Emitter>,
     /// Area times level of all triangles.
     power: f32,
+    /// From here the range is measured.
+    center: Vec3,
 }
 
 /// A triangle with its share of the power of the light, all shares before it included.
@@ -62,7 +64,12 @@ impl AreaLight {
             })
             .collect();
         emitters.iter_mut().for_each(|emitter| emitter.share_end /= power);
-        Self { range: f32::INFINITY, both_sides, triangles: emitters, power }
+        let center = match &emitters[..] {
+            [] => Vec3::ZERO,
+            [Emitter { corners: [a, ..], .. }, other] => (*a + other.corners[1]) * 0.5,
+            [Emitter { corners: [a, b, c], .. }, ..] => (*a + *b + *c) / 3.0,
+        };
+        Self { range: f32::INFINITY, both_sides, triangles: emitters, power, center }
     }
 
     /// Irradiance in lux at a point with this normal of length 1, with nothing between: `pi L F`, windowed.
@@ -113,14 +120,17 @@ impl AreaLight {
         cos * cos_light / (squared * squared).max(f32::MIN_POSITIVE)
     }
 
+    /// What the mean irradiance over the unit square is made of, in lux: what a point of the light gives, with nothing
+    /// between, over its density.
+    pub fn irradiance_from(&self, light: &LightPoint, point: Vec3, normal: Vec3) -> Vec3 {
+        light.color * (self.weight(light, point, normal) * self.power * self.window(point))
+    }
+
     fn window(&self, point: Vec3) -> f32 {
         if self.range.is_infinite() {
             return 1.0;
         }
-        let [a, b, c] = self.triangles[0].corners;
-        let center =
-            if let [_, other] = &self.triangles[..] { (a + other.corners[1]) * 0.5 } else { (a + b + c) / 3.0 };
-        range_window(center.distance_squared(point), self.range)
+        range_window(self.center.distance_squared(point), self.range)
     }
 
     /// Where light leaves it, times this strength per channel.
@@ -141,6 +151,18 @@ impl AreaLight {
         };
         let all = self.triangles.iter().map(of_triangle).reduce(|all, next| all.and(&next));
         all.unwrap_or(Emission::NONE)
+    }
+
+    /// What of it a plane mirror shows; possibly nothing.
+    pub(super) fn image(&self, mirror: &PlaneMirror) -> Self {
+        let shown =
+            self.triangles.iter().filter(|emitter| emitter.corners.iter().any(|&corner| mirror.height(corner) > 0.0));
+        let image = |emitter: &Emitter| {
+            // An image turns the winding around.
+            let [a, b, c] = emitter.corners.map(|corner| mirror.image(corner));
+            ([a, c, b], emitter.radiance)
+        };
+        Self { range: self.range, center: mirror.image(self.center), ..Self::new(shown.map(image), self.both_sides) }
     }
 
     /// Whether the light has no area or no radiance.

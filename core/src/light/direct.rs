@@ -73,6 +73,19 @@ impl DirectLight {
         }
     }
 
+    /// A shadow ray as [`DirectLight::shadow_ray`] gives it, and the irradiance in lux that it stands for alone: its mean
+    /// over the unit square is [`DirectLight::irradiance`].
+    pub fn shadow_sample(&self, square: Vec2, point: Vec3, normal: Vec3) -> (ShadowRay, Vec3) {
+        match self {
+            Self::Area(light) => {
+                let target = light.point(square);
+                let ray = ShadowRay { direction: target.position - point, end: 1.0, weight: 1.0 };
+                (ray, light.irradiance_from(&target, point, normal))
+            }
+            _ => (self.shadow_ray(square, point, normal), self.irradiance(point, normal)),
+        }
+    }
+
     /// The shadow ray from a lit point to the point of the light that belongs to a point of the unit square.
     pub fn shadow_ray(&self, square: Vec2, point: Vec3, normal: Vec3) -> ShadowRay {
         match self {

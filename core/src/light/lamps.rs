@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::Vec3;
 
-use super::{Choice, Cut, DirectLight, Guide, LightTree, Region};
+use super::{Choice, Cut, DirectLight, Guide, LightTree, PlaneMirror, Region};
 
 /// Up to so many lamps are all asked one by one, wherever their light may arrive.
 const FEW: usize = 32;
@@ -16,6 +16,8 @@ const REST: f32 = 1e-3;
 /// Lamps, each with its strength.
 pub struct Lamps<'a> {
     list: Vec<(&'a DirectLight, Vec3)>,
+    /// For each the mirror in which it is seen; empty where none is.
+    mirrors: Vec<Option<&'a PlaneMirror>>,
     tree: LightTree,
     /// Those that shine from far away.
     everywhere: Vec<u32>,
@@ -31,7 +33,17 @@ impl<'a> Lamps<'a> {
                 None => everywhere.push(index as u32),
             }
         }
-        Self { list, tree: LightTree::new(near), everywhere }
+        Self { list, mirrors: Vec::new(), tree: LightTree::new(near), everywhere }
+    }
+
+    /// The same lamps, of which some are images that are seen in mirrors only: an entry for each, or none at all.
+    pub fn seen_in(self, mirrors: Vec<Option<&'a PlaneMirror>>) -> Self {
+        Self { mirrors, ..self }
+    }
+
+    /// The mirror in which a lamp is seen, where it is an image.
+    pub fn mirror(&self, lamp: u32) -> Option<&'a PlaneMirror> {
+        self.mirrors.get(lamp as usize).copied().flatten()
     }
 
     /// How many there are.

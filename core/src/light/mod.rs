@@ -4,12 +4,14 @@ mod area;
 mod direct;
 mod falloff;
 mod lamps;
+mod mirror;
 mod tree;
 
 pub use area::*;
 pub use direct::*;
 pub use falloff::*;
 pub use lamps::*;
+pub use mirror::*;
 pub use tree::*;
 
 use alloc::string::String;

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use glam::Vec3;
 
-use super::{Gather, Gathered, Nodes, Texel};
+use super::{Gather, Gathered, Nodes, Seen, Texel};
 use crate::geometry::{Hit, Occluders};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
@@ -22,7 +22,7 @@ pub(super) struct Cell {
 /// The widest cells, in texels.
 const WIDEST: u16 = 8;
 
-impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
+impl<O: Occluders, C: Fn(Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
     /// Gathers wherever something has to be gathered; returns the cells between whose corners light is interpolated,
     /// wide ones first.
     ///

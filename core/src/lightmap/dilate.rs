@@ -99,15 +99,15 @@ impl Filling<'_> {
         ring.into_iter().map(|(at, _)| at).collect()
     }
 
-    /// The known texels beside one, a bit each; those at its corners where there are no others. A mean with those at the
-    /// corners would smear what lies along the border of a chart.
+    /// The known texels beside one, a bit each; those at its corners where there are no others, or where only those are
+    /// dark. A mean with those at the corners would smear what lies along the border of a chart.
     fn sources(&self, at: usize, same_chart: bool) -> u8 {
         let charts = &self.image.charts;
         let is_source =
             |&(_, other): &(usize, usize)| self.known[other] && (!same_chart || charts[other] == charts[at]);
         let all: u8 = neighbors(self.image, at).filter(is_source).map(|(k, _)| 1 << k).sum();
-        let nearest = if all & BESIDE != 0 { all & BESIDE } else { all };
-        if same_chart { self.without_bright(at, nearest) } else { nearest }
+        let all = if same_chart { self.without_bright(at, all) } else { all };
+        if all & BESIDE != 0 { all & BESIDE } else { all }
     }
 
     /// The sources without those that are far brighter than the darkest.

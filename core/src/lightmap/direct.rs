@@ -11,10 +11,11 @@ use glam::{Vec2, Vec3};
 
 use super::blocks::{Blocks, bit};
 use super::footprint::Footprint;
+use super::penumbra::smooth_penumbrae;
 use super::samples::Samples;
 use super::{Texel, Texels};
 use crate::geometry::{Occluders, Sobol, hash};
-use crate::light::{Cut, DirectLight, Guide, Lamps, Region};
+use crate::light::{Cut, Guide, Lamps, Region};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
 use crate::transport::Tracer;
@@ -32,6 +33,9 @@ pub struct ShadowRays {
     /// Fewer where the standard error is below this share of the direct light of the texel and a tenth of its mean.
     pub noise: f32,
 }
+
+/// By how bright channels look, so that the borders of colors are seen: Rec. 709.
+const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// A second look at a penumbra starts with so many rays, and so do lamps that are asked by chance.
 const FEWEST: u32 = 8;
@@ -105,6 +109,47 @@ struct BlockLook {
     levels: Vec<f32>,
 }
 
+/// What one ray to a lamp brings.
+#[derive(Clone, Copy)]
+struct Sample {
+    weight: f32,
+    /// The weight times what arrives of it, as a luminance.
+    value: f32,
+    /// The color of what arrives: its luminance is 1.
+    tint: Vec3,
+}
+
+impl Sample {
+    fn share(&self) -> f32 {
+        if self.weight > 0.0 { self.value / self.weight } else { 0.0 }
+    }
+}
+
+impl Default for Sample {
+    fn default() -> Self {
+        Self { weight: 0.0, value: 0.0, tint: Vec3::ONE }
+    }
+}
+
+/// The mean color of what samples bring.
+#[derive(Default)]
+struct Tint {
+    sum: Vec3,
+    values: f32,
+}
+
+impl Tint {
+    fn add(&mut self, sample: &Sample) {
+        self.sum += sample.tint * sample.value;
+        self.values += sample.value;
+    }
+
+    /// White where nothing arrives.
+    fn mean(&self) -> Vec3 {
+        if self.values > 0.0 { self.sum / self.values } else { Vec3::ONE }
+    }
+}
+
 /// Which texels of a block saw something of a lamp, and which found something in the way; neither: it does not shine on
 /// them.
 #[derive(Clone, Copy, Default)]
@@ -135,10 +180,12 @@ impl<O: Occluders> Direct<'_, O> {
         let valid = self.is_valid.iter().filter(|&&is_valid| is_valid).count();
         let mean = looks.iter().flat_map(|look| &look.levels).sum::<f32>() / valid.max(1) as f32;
         progress.enter_part(1, 2);
-        let lights = workers.map(count, 8, progress, |range| {
+        let lights: Vec<DirectTexel> = workers.map(count, 8, progress, |range| {
             range.flat_map(|block| self.second_look(lamps, &looks, block, mean)).collect()
         })?;
-        Ok(blocks.scatter(&lights))
+        let light = blocks.scatter(&lights);
+        drop(lights);
+        smooth_penumbrae(&light, self.texels, self.is_valid, workers, progress)
     }
 
     /// What a block of texels sees from the middles of its texels by few rays.
@@ -153,10 +200,10 @@ impl<O: Occluders> Direct<'_, O> {
                 if !self.is_valid[index as usize] || irradiance == Vec3::ZERO {
                     continue;
                 }
-                let share = self.first_share(lamps.light(lamp), lamp, index);
+                let (share, is_white) = self.first_share(lamps, lamp, index);
                 let bit = bit(&self.texels.list[index as usize]);
                 look.lit |= if share > 0.0 { bit } else { 0 };
-                look.dark |= if share < 1.0 { bit } else { 0 };
+                look.dark |= if share < 1.0 || !is_white { bit } else { 0 };
                 *level += share * irradiance.element_sum() / (3.0 * PI);
             }
             look
@@ -175,16 +222,18 @@ impl<O: Occluders> Direct<'_, O> {
         lamps.cut(&Region::around(valid), middle, normal)
     }
 
-    fn first_share(&self, light: &DirectLight, lamp: u32, index: u32) -> f32 {
+    /// The share that is seen of a lamp, and whether nothing colors it.
+    fn first_share(&self, lamps: &Lamps, lamp: u32, index: u32) -> (f32, bool) {
         let position = self.texels.list[index as usize].position;
         let sequence = self.sequence(lamp, index);
-        if light.is_sharp() {
-            let [weight, value] = self.sample(light, index, &sequence, 0, position);
-            return if weight > 0.0 { value / weight } else { 0.0 };
+        if lamps.light(lamp).is_sharp() {
+            let sample = self.sample(lamps, lamp, index, &sequence, 0, position);
+            return (sample.share(), sample.tint == Vec3::ONE);
         }
         let mut samples = Samples::default();
-        self.sample_more(&mut samples, light, index, &sequence, self.rays.first, |_| position);
-        samples.mean()
+        let mut tint = Tint::default();
+        self.sample_more(&mut samples, &mut tint, (lamps, lamp), index, &sequence, self.rays.first, |_| position);
+        (samples.mean(), tint.mean() == Vec3::ONE)
     }
 
     fn sequence(&self, lamp: u32, index: u32) -> Sobol {
@@ -240,22 +289,22 @@ impl<O: Occluders> Direct<'_, O> {
             0 | 1 => Footprint::middle(texel),
             _ => Footprint::new(texel, self.texels, self.tracer.world),
         };
-        let (light, sequence) = (lamps.light(lamp), self.sequence(lamp, index));
-        if light.is_sharp() {
+        let sequence = self.sequence(lamp, index);
+        if lamps.light(lamp).is_sharp() {
             return self.sharp(lamps, lamp, index, &points, &sequence);
         }
         let full = certain(lamps.irradiance(lamp, texel.position, texel.normal));
-        let (mut samples, mut rays) = (Samples::default(), FEWEST.max(self.rays.first));
+        let (mut samples, mut tint, mut rays) = (Samples::default(), Tint::default(), FEWEST.max(self.rays.first));
         let place = |k| points.point(&sequence, k, 2);
         loop {
-            self.sample_more(&mut samples, light, index, &sequence, rays, place);
+            self.sample_more(&mut samples, &mut tint, (lamps, lamp), index, &sequence, rays, place);
             let (share, noise) = (samples.mean(), samples.variance() * full.error.darkest * full.error.darkest);
             // A sliver of the lamp that hides from all of these rays, or is all that they would have met.
             let sliver = 0.5 * full.error.darkest / rays as f32;
             let is_certain = noise.max(sliver * sliver) <= tolerated * tolerated;
             if rays >= self.rays.most || is_certain {
                 let error = DirectError { noise, spread: 0.0, darkest: full.error.darkest * share };
-                return DirectTexel { irradiance: full.irradiance * share, error };
+                return DirectTexel { irradiance: full.irradiance * share * tint.mean(), error };
             }
             rays *= 2;
         }
@@ -268,9 +317,8 @@ impl<O: Occluders> Direct<'_, O> {
         let rays = self.rays.sharp.max(1);
         for k in 0..rays {
             let point = points.point(sequence, k, 0);
-            let [weight, value] = self.sample(lamps.light(lamp), index, sequence, k, point);
-            let share = if weight > 0.0 { value / weight } else { 0.0 };
-            let lit = lamps.irradiance(lamp, point, normal) * (share / PI);
+            let sample = self.sample(lamps, lamp, index, sequence, k, point);
+            let lit = lamps.irradiance(lamp, point, normal) * (sample.share() / PI) * sample.tint;
             sum += lit;
             levels.put(sequence.square(k), 1.0, lit.element_sum() / 3.0);
         }
@@ -288,9 +336,8 @@ impl<O: Occluders> Direct<'_, O> {
                 let number = sequence.dimension(k, 2);
                 let lit = lamps.choose(cut, guide, position, normal, number).map_or(Vec3::ZERO, |choice| {
                     let irradiance = lamps.irradiance(choice.lamp, position, normal);
-                    let [weight, value] = self.sample(lamps.light(choice.lamp), index, &sequence, k, position);
-                    let share = if weight > 0.0 { value / weight } else { 0.0 };
-                    let lit = irradiance * (share / choice.probability);
+                    let sample = self.sample(lamps, choice.lamp, index, &sequence, k, position);
+                    let lit = irradiance * (sample.share() / choice.probability) * sample.tint;
                     gave.push((choice, lit.element_sum() / 3.0));
                     lit / PI
                 });
@@ -311,33 +358,44 @@ impl<O: Occluders> Direct<'_, O> {
     }
 
     /// Takes rays to points of a lamp until there are so many, each with its weight.
+    #[expect(clippy::too_many_arguments, reason = "what is sampled, from where, and how often")]
     fn sample_more(
         &self,
         samples: &mut Samples,
-        light: &DirectLight,
+        tint: &mut Tint,
+        (lamps, lamp): (&Lamps, u32),
         index: u32,
         sequence: &Sobol,
         rays: u32,
         point: impl Fn(u32) -> Vec3,
     ) {
         for k in samples.count()..rays {
-            let [weight, value] = self.sample(light, index, sequence, k, point(k));
-            samples.put(sequence.square(k), weight, value);
+            let sample = self.sample(lamps, lamp, index, sequence, k, point(k));
+            samples.put(sequence.square(k), sample.weight, sample.value);
+            tint.add(&sample);
         }
     }
 
-    /// The weight of a ray to a point of a lamp, and as much of it as arrives. Where normals are smooth the point lies
-    /// above its triangle, and light may come from below the plane of that.
-    fn sample(&self, light: &DirectLight, index: u32, sequence: &Sobol, k: u32, from: Vec3) -> [f32; 2] {
+    /// What a ray to a point of a lamp brings. Where normals are smooth the point lies above its triangle, and light may
+    /// come from below the plane of that.
+    fn sample(&self, lamps: &Lamps, lamp: u32, index: u32, sequence: &Sobol, k: u32, from: Vec3) -> Sample {
         let texel = &self.texels.list[index as usize];
         let flat = self.tracer.world.normals[texel.triangle as usize];
-        let ray = light.shadow_ray(sequence.square(k), from, texel.normal);
+        let ray = lamps.light(lamp).shadow_ray(sequence.square(k), from, texel.normal);
         let weight = ray.weight.max(0.0);
         if weight <= 0.0 {
-            return [0.0; 2];
+            return Sample::default();
         }
         self.tracer.count(1);
-        [weight, weight * self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray))]
+        if self.tracer.is_plain {
+            let visible = self.tracer.visibility(&self.tracer.leave_for(texel.triangle, from, flat, &ray));
+            return Sample { weight, value: weight * visible, tint: Vec3::ONE };
+        }
+        let arriving = self.tracer.arriving((texel.triangle, from, flat), &ray, lamps.mirror(lamp));
+        let is_gray = arriving == Vec3::splat(arriving.x);
+        let level = if is_gray { arriving.x } else { arriving.dot(LUMINANCE) };
+        let tint = if is_gray { Vec3::ONE } else { arriving / level };
+        Sample { weight, value: weight * level, tint }
     }
 
     /// The valid texels of the same chart among the eight around a texel, each by its block and its bit.

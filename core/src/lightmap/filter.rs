@@ -113,7 +113,8 @@ pub fn stencil(
     visit(index, 1.0);
 }
 
-fn neighbor(texel: &Texel, texels: &Texels, is_valid: &[bool], x: i32, y: i32) -> Option<usize> {
+/// The texel so many columns and rows away, if it is valid and lies on the same chart in about the same direction.
+pub(super) fn neighbor(texel: &Texel, texels: &Texels, is_valid: &[bool], x: i32, y: i32) -> Option<usize> {
     let [column, row] = texel.pixel.map(i32::from);
     let other = texels.at_pixel(u32::from(texel.image), column + x, row + y)? as usize;
     let is_near = texels.list[other].chart == texel.chart && texels.list[other].normal.dot(texel.normal) > 0.95;

@@ -6,11 +6,11 @@ use alloc::vec::Vec;
 
 use glam::{Vec3, Vec3A};
 
-use super::{Texel, Texels};
+use super::{Reflectors, Texel, Texels};
 use crate::geometry::{Hit, Occluders, Sobol, cosine_direction, hash};
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress};
-use crate::transport::{Contact, Keep, Row, Rows, Tracer};
+use crate::transport::{Arrival, Contact, Keep, Row, Rows, Tracer};
 
 /// How densely light is gathered, and with how many rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,10 +110,14 @@ pub struct Gather<'a, O, C> {
     pub is_valid: &'a [bool],
     /// Sends the rays.
     pub tracer: &'a Tracer<'a, O>,
-    /// What a ray sees, of which there are so many as `radiance` has entries: the nearest hit, or the sky.
-    pub column: C,
-    /// The radiance of each, in cd/m2.
+    /// What a ray sees: the nearest hit, or the sky.
+    pub look: C,
+    /// The radiance of each column, in cd/m2; that of cells and patches without what is looked for on purpose.
     pub radiance: &'a [Vec3A],
+    /// The column of all that neither reflects nor emits.
+    pub black: u32,
+    /// What is looked for on purpose.
+    pub reflectors: &'a Reflectors,
     /// Whether a texel that sees things at this harmonic mean distance, in meters, touches them.
     pub touches: &'a (dyn Fn(usize, f32) -> bool + Sync),
     /// Which nodes keep what they see: all, or those that touch something.
@@ -132,7 +136,7 @@ const BATCH: usize = 1 << 18;
 /// Texels along the side of a tile that shares a sequence.
 const TILE: u32 = 8;
 
-impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
+impl<O: Occluders, C: Fn(Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
     /// Gathers at nodes and interpolates: one entry for each texel, zero for those that are not valid.
     ///
     /// `direct` is the direct light of each texel, mean over the channels: errors are seen against all light.
@@ -173,35 +177,57 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
     fn node(&self, index: usize, rays: u32, seed: u32, known: &Nodes) -> (Gathered, Option<Row>) {
         let texel = &self.texels.list[index];
         let (tile, place) = self.place_in_tile(texel);
-        let flat = self.tracer.world.normals[texel.triangle as usize];
-        let mut hits = Vec::with_capacity(rays as usize);
-        for half in 0..2 {
-            let seed = hash(hash(seed, half), tile);
+        let half = rays / 2;
+        let station = self.station(texel, half);
+        let seeds = [0, 1].map(|number| hash(hash(seed, number), tile));
+        let mut ends: Vec<(Vec3, Option<Hit>)> = Vec::with_capacity(rays as usize);
+        let mut ways: Vec<Way> = Vec::new();
+        for seed in seeds {
             let sequence = Sobol::new(seed);
-            hits.extend((place * (rays / 2)..(place + 1) * (rays / 2)).map(|k| {
-                let direction = above(cosine_direction(sequence.square(k), texel.normal), flat);
-                let ray = self.tracer.leave(texel.triangle, texel.position, flat, direction, f32::INFINITY);
-                self.tracer.nearest(&ray, hash(seed, k))
+            ends.extend((place * half..(place + 1) * half).map(|k| {
+                let direction = above(cosine_direction(sequence.square(k), texel.normal), station.flat);
+                let ray = self.tracer.leave(texel.triangle, texel.position, station.flat, direction, f32::INFINITY);
+                if self.tracer.is_plain {
+                    return (direction, self.tracer.nearest(&ray, hash(seed, k)));
+                }
+                let arrival = self.tracer.follow(&ray, hash(seed, k));
+                ways.push(Way { arrival, number: sequence.dimension(k, 3) });
+                (direction, arrival.hit)
             }));
         }
-        self.tracer.count(hits.len());
+        self.tracer.count(ends.len());
         // What is seen lies anywhere in memory: it is asked for at once, not between traversals.
-        let mut columns: Vec<u32> = hits.iter().map(|hit| (self.column)(hit.as_ref())).collect();
-        let half = columns.len() / 2;
-        let mean =
-            |columns: &[u32]| columns.iter().map(|&column| self.radiance[column as usize]).sum::<Vec3A>() / half as f32;
-        let (a, b) = (mean(&columns[..half]), mean(&columns[half..]));
-        let nearness = |hit: &Option<Hit>| hit.map_or(0.0, |hit| 1.0 / hit.distance.max(1e-6));
-        let inverse_distances: f32 = hits.iter().map(nearness).sum();
+        let seen: Vec<Seen> = ends.iter().map(|(_, hit)| (self.look)(hit.as_ref())).collect();
+        let [a, b] = [0, 1].map(|number| {
+            let own = number * half as usize..(number + 1) * half as usize;
+            let met = own.map(|k| match ways.get(k) {
+                None => self.met(&station, &ends[k], seen[k]),
+                Some(way) => self.met_by_way(&station, &ends[k], seen[k], &way.arrival),
+            });
+            let met = met.sum::<Vec3A>() / half as f32;
+            met + self.looked_for(&station, &Sobol::new(seeds[number]), place)
+        });
+        let nearness = |(_, hit): &(Vec3, Option<Hit>)| hit.map_or(0.0, |hit| 1.0 / hit.distance.max(1e-6));
+        let inverse_distances: f32 = ends.iter().map(nearness).sum();
         let gathered = Gathered {
             irradiance: ((a + b) * 0.5).into(),
             variance: (a - b).length_squared() / 12.0,
-            distance: hits.len() as f32 / f32::max(inverse_distances, 1e-9),
+            distance: ends.len() as f32 / f32::max(inverse_distances, 1e-9),
             rays,
             width: 0,
         };
         let keeps = self.keeps(index, gathered.distance, known);
-        (gathered, keeps.then(|| Row::count(&mut columns)))
+        (gathered, keeps.then(|| Row::count(&mut self.columns(&seen, &ways))))
+    }
+
+    /// The columns on which rays end.
+    fn columns(&self, seen: &[Seen], ways: &[Way]) -> Vec<u32> {
+        if ways.is_empty() {
+            return seen.iter().map(|seen| seen.column).collect();
+        }
+        let all = [self.radiance.len() as u32, self.black];
+        let parts = |(seen, way): (&Seen, &Way)| way.arrival.columns(seen.column, all, way.number);
+        seen.iter().zip(ways).flat_map(parts).collect()
     }
 
     /// Whether a texel keeps what these rays see.
@@ -220,6 +246,22 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> u32 + Sync> Gather<'_, O, C> {
         let spread = |x: u32| (x & 1) | (x & 2) << 1 | (x & 4) << 2;
         (hash(tile, u32::from(texel.image)), spread(column % TILE) | spread(row % TILE) << 1)
     }
+}
+
+/// How a ray got there by way of mirrors and glass.
+struct Way {
+    arrival: Arrival,
+    /// Decides how many of its parts keep a channel.
+    number: f32,
+}
+
+/// What a ray sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seen {
+    /// The column that stands for it.
+    pub column: u32,
+    /// The texel that was met, or [`NONE`](super::NONE).
+    pub texel: u32,
 }
 
 /// A direction below the plane of a triangle, as smooth normals give it, mirrored to above.

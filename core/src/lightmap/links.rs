@@ -121,7 +121,7 @@ impl Texels {
 
     /// The texel on a side of another: right, below, left, above.
     #[inline]
-    pub(super) fn beside(&self, texel: u32, side: usize) -> Option<u32> {
+    pub fn beside(&self, texel: u32, side: usize) -> Option<u32> {
         let Texel { pixel: [x, y], image, .. } = self.list[texel as usize];
         let [dx, dy] = STEPS[side];
         self.at_pixel(u32::from(image), i32::from(x) + dx, i32::from(y) + dy)

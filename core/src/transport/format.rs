@@ -14,7 +14,7 @@ use super::{
 /// The first bytes of a file.
 const MAGIC: [u8; 8] = *b"RADIOSTP";
 /// What this version writes, and the only one that it reads.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 /// Magic, version, a reserved zero, length and checksum of the rest.
 const HEADER: usize = 32;
 /// Images have at most so many texels in a row and so many rows.
@@ -220,11 +220,11 @@ macro_rules! fields {
 
 fields! {
     Transport { surfaces, lamps, patches, nodes, contacts, texels, images, seams, lighting, lamp_names, material_names }
-    Surfaces { areas, materials, bare, patch_of, texel_areas, reflectance, emission, cells, around }
+    Surfaces { areas, presence, materials, bare, patch_of, texel_areas, reflectance, emission, cells, around }
     Contact { texel, node }
     Cells { of_texel, count }
     Codes { largest, codes }
-    Rows { ends, entries, totals }
+    Rows { ends, entries, totals, columns }
     LampLight { origin, color, runs, light }
     Run { start, first }
     StoredImage { width, height, places, fills }

@@ -23,7 +23,7 @@ pub struct Lighting {
 /// The colors of a material: factors on its textures.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MaterialColors {
-    /// Reflectance, not negative; at most 0.98 of the light is reflected.
+    /// Reflectance, not negative; at most 0.98 of the light is reflected. Mirrors and glass keep the color of the bake.
     pub base_color: Vec3,
     /// Emitted radiance in cd/m2, not negative.
     pub emissive: Vec3,

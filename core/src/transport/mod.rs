@@ -26,6 +26,7 @@
 mod codes;
 mod contacts;
 mod fills;
+mod follow;
 mod format;
 mod keep;
 mod lamp_light;
@@ -43,6 +44,7 @@ mod tracer;
 pub use codes::*;
 pub use contacts::*;
 pub use fills::*;
+pub use follow::*;
 pub use format::*;
 pub use keep::*;
 pub use lamp_light::*;

@@ -28,6 +28,8 @@ pub struct PatchLight {
     pub reflectance: Vec<Vec3A>,
     /// Emitted radiance in cd/m2.
     pub emission: Vec<Vec3A>,
+    /// The share of the light that meets a patch and stays; none of the sky and the black.
+    pub presence: Vec<f32>,
 }
 
 impl PatchLight {
@@ -37,6 +39,7 @@ impl PatchLight {
             direct: surfaces.direct_of_patches(direct),
             reflectance: surfaces.reflectances(lighting),
             emission: surfaces.emissions(lighting),
+            presence: surfaces.presence.iter().copied().chain([0.0; 2]).collect(),
         }
     }
 
@@ -49,6 +52,7 @@ impl PatchLight {
         ] {
             own[patches.clone()].copy_from_slice(&of_other[patches.clone()]);
         }
+        self.presence[patches.clone()].copy_from_slice(&other.presence[patches]);
     }
 }
 
@@ -66,6 +70,8 @@ pub struct Solution {
     pub reflectance: Vec<Vec3A>,
     /// Emitted radiance.
     pub emission: Vec<Vec3A>,
+    /// The share of the light that meets the patch and stays.
+    pub presence: Vec<f32>,
     /// Bounces that were needed.
     pub sweeps: usize,
 }
@@ -88,7 +94,7 @@ impl Solution {
 
     /// The same from what the patches themselves do and get.
     pub fn of_patches(
-        PatchLight { direct, reflectance, emission }: PatchLight,
+        PatchLight { direct, reflectance, emission, presence }: PatchLight,
         rows: &Rows,
         start: Vec<Vec3A>,
         workers: &Workers,
@@ -113,20 +119,22 @@ impl Solution {
         received.truncate(direct.len());
         form_factors.receive_all(&radiance, &mut received);
         progress.check()?;
-        Ok(Self { radiance, received, direct, reflectance, emission, sweeps })
+        Ok(Self { radiance, received, direct, reflectance, emission, presence, sweeps })
     }
 
     /// (Emitted - absorbed - escaped) / emitted power, by what the rows say. Form factors from rays obey reciprocity
-    /// only as far as their noise allows; what they miss shows here.
+    /// only as far as their noise allows; what they miss shows here. So does light of lamps that several mirrors, or curved
+    /// ones, would bring. What mirrors and glass absorb on the way counts as absorbed.
     pub fn energy_balance(&self, areas: impl ExactSizeIterator<Item = f32>, rows: &Rows) -> f32 {
         let (mut emitted, mut absorbed) = (0.0_f64, 0.0_f64);
         let Some(&sky) = self.radiance.get(areas.len()) else { return 0.0 };
         let end = areas.len() as u32;
         for (i, area) in areas.enumerate() {
-            let (to_sky, to_black) = (rows.share(i, end), rows.share(i, end + 1));
+            let (to_sky, to_black) = (rows.share::<Vec3A>(i, end), rows.share::<Vec3A>(i, end + 1));
             let from_outside = self.direct[i] + self.emission[i] + sky * to_sky;
             let kept = (self.direct[i] + self.received[i]) * (Vec3A::ONE - self.reflectance[i]);
-            let escaped = self.radiance[i] * (to_sky + to_black);
+            let area = area * self.presence[i];
+            let escaped = self.radiance[i] * (to_sky + to_black + rows.absorbed::<Vec3A>(i));
             emitted += f64::from(area) * f64::from(from_outside.element_sum());
             absorbed += f64::from(area) * f64::from((kept + escaped).element_sum());
         }

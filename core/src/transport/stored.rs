@@ -10,7 +10,8 @@ use super::{Contact, Fills, LampLight, Lighting, Rows, Seams, Surfaces};
 /// With `D` the direct light of the lamps, `F` the form factors between patches, `G` what nodes see of surfaces and `W`
 /// how texels are mixed from nodes, a lightmap is `D + W G (e + rho (D + F b))`, where `b = e + rho (D + F b)`; at
 /// contacts the light of their own takes the place of `F b`. Only `e`, `rho` and the strengths in `D` depend on the
-/// [`Lighting`].
+/// [`Lighting`]: what mirrors and glass do with light is part of `D`, `F` and `G`, in the colors of the bake, and does not
+/// change.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Transport {
     /// What surfaces do with light: `e` and `rho`.

@@ -20,6 +20,8 @@ pub const LARGEST_REFLECTANCE: f32 = 0.98;
 pub struct Surfaces {
     /// For each patch its area in square meters.
     pub areas: Vec<f32>,
+    /// For each patch the share of the light that meets it and stays: what it lets pass, or mirrors, goes on.
+    pub presence: Vec<f32>,
     /// For each patch its material.
     pub materials: Vec<u32>,
     /// Patches without texels on their side: they receive direct light of their own, after the texels.
@@ -84,7 +86,7 @@ impl Surfaces {
     /// What they take, in bytes.
     pub fn bytes(&self) -> usize {
         let texels = 4 * (self.patch_of.len() + self.texel_areas.len() + 2 * self.patch_of.len());
-        let patches = 4 * (self.areas.len() + self.materials.len() + self.bare.len());
+        let patches = 4 * (2 * self.areas.len() + self.materials.len() + self.bare.len());
         texels + patches + 2 * (self.reflectance.len() + self.emission.len()) + self.around.bytes()
     }
 
@@ -115,6 +117,7 @@ impl Surfaces {
         });
         let [details, around] = [3 * (texels + patches), self.around.len()];
         let lengths_fit = (self.materials.len(), self.texel_areas.len(), around) == (patches, texels, texels)
+            && self.presence.len() == patches
             && (self.reflectance.len(), self.emission.len()) == (details, details);
         let indices_fit = all_below(&self.materials, materials)
             && all_below(&self.bare, patches)

@@ -12,14 +12,19 @@ use crate::scene::World;
 pub struct Tracer<'a, O> {
     /// The triangles with their materials.
     pub world: &'a World<'a>,
-    occluders: O,
+    /// Whether nothing is a mirror or changes the color of light that passes.
+    pub is_plain: bool,
+    pub(super) occluders: O,
+    /// Whether anything changes the color of light that passes.
+    pub(super) filters: bool,
     rays: AtomicUsize,
 }
 
 impl<'a, O: Occluders> Tracer<'a, O> {
     /// `occluders` holds the triangles of the world that block light.
     pub fn new(world: &'a World<'a>, occluders: O) -> Self {
-        Self { world, occluders, rays: AtomicUsize::new(0) }
+        let filters = world.sides[..world.blockers].iter().any(|side| side.filters);
+        Self { world, is_plain: world.is_plain(), occluders, filters, rays: AtomicUsize::new(0) }
     }
 
     /// Counts rays that were traced.
@@ -36,10 +41,20 @@ impl<'a, O: Occluders> Tracer<'a, O> {
     /// by `seed`. Where two one-sided surfaces lie back to back, the one that faces the ray is met.
     #[inline]
     pub fn nearest(&self, ray: &Ray, seed: u32) -> Option<Hit> {
+        self.nearest_but(ray, seed, |_| ())
+    }
+
+    /// The same; `pass` gets hits that let the light pass, in any order, and some beyond.
+    #[inline]
+    pub(super) fn nearest_but(&self, ray: &Ray, seed: u32, pass: impl Fn(&Hit)) -> Option<Hit> {
         self.occluders.first(ray, |hit| {
             let shows = hit.front || self.world.sides[hit.triangle as usize].both;
             let slack = if shows { 0.0 } else { 4.0 * self.world.lift(hit.triangle) / ray.direction.length() };
-            self.blocks(hit, seed).then_some(hit.distance + slack)
+            let blocks = self.blocks(hit, seed);
+            if !blocks {
+                pass(hit);
+            }
+            blocks.then_some(hit.distance + slack)
         })
     }
 
@@ -51,7 +66,7 @@ impl<'a, O: Occluders> Tracer<'a, O> {
         }
     }
 
-    /// The share of light that passes along a ray, in `[0, 1]`.
+    /// The share of light that passes along a ray, in `[0, 1]`, whatever its color.
     #[inline]
     pub fn visibility(&self, ray: &Ray) -> f32 {
         let mut passes = 1.0;
