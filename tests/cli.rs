@@ -106,6 +106,35 @@ fn views_are_pictures_of_the_size_of_the_preview() {
     }
 }
 
+/// Paths of light draw what the bake shows, side by side with it, and find no large errors; views show these too.
+#[test]
+fn paths_of_light_agree_with_the_bake() {
+    let folder = TestFolder::new("paths");
+    let (out, picture) = (folder.path().join("out"), folder.path().join("truth.png"));
+    let render = picture.to_str().expect("it has a name in Unicode");
+    let more = ["--render", render, "--samples", "1", "--reference", "50", "--views"];
+    bake(&folder.write("room.glb", &Glb::room().bytes()), &out, &more).expect("the room can be baked");
+    let read = |path: &Path| {
+        let file = fs::File::open(path).expect("the picture is there");
+        let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("it fits")];
+        let info = reader.next_frame(&mut pixels).expect("it is whole");
+        (info.width as usize, info.height as usize, pixels)
+    };
+    let mean = |pixels: &[u8]| pixels.iter().map(|channel| f64::from(*channel)).sum::<f64>() / pixels.len() as f64;
+    let (width, height, preview) = read(&out.join("preview.png"));
+    let (own_width, own_height, truth) = read(&picture);
+    assert_eq!((own_width, own_height), (width, height));
+    assert!((mean(&truth) - mean(&preview)).abs() < 0.1 * mean(&preview), "{} {}", mean(&truth), mean(&preview));
+    let (both, ..) = read(&folder.path().join("truth-beside.png"));
+    assert!(both > 2 * width && both < 2 * width + 10);
+    assert_eq!(read(&folder.path().join("truth-difference.png")).0, width);
+    assert_eq!(read(&out.join("truth.png")).0, width);
+    let error = &json(&out.join("report.json"))["true_error"];
+    assert!(error["points"].as_u64().is_some_and(|points| (1..=50).contains(&points)), "{error}");
+    assert!(error["p50"].as_f64().is_some_and(|p50| p50 > 0.0 && p50 < 0.2), "{error}");
+}
+
 /// Every field that others read is there, and the sums are right.
 fn report_is_complete(report: &Value) {
     let numbers = "triangles surfaces texels valid_texels invalid_texels patches nodes images texels_per_meter ev100 \

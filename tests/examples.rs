@@ -79,6 +79,12 @@ fn viewer_shows_light_and_charts() {
     let [red, green, back] = [RED, GREEN, BACK].map(|point| charts.at(point));
     assert!(red != green && green != back && back != red, "walls of one color: {red:?} {green:?} {back:?}");
 
+    let truth = picture_of("truth", &folder);
+    let count = |is_meant: fn(&[u8; 3]) -> bool| truth.pixels.iter().filter(|pixel| is_meant(pixel)).count();
+    let small = count(|[red, green, blue]| blue > green && blue > red);
+    let large = count(|[red, _, blue]| red / 2 > *blue.max(&40));
+    assert!(small > truth.pixels.len() / 4 && small > 4 * large, "{small} {large}");
+
     let missing = folder.path().join("missing.glb");
     let picture = folder.path().join("missing.png");
     let status = viewer(&[missing.to_str().unwrap(), "--screenshot", picture.to_str().unwrap()]);

@@ -8,7 +8,7 @@ use bevy::pbr::Lightmap;
 use bevy::prelude::*;
 
 use crate::lightmap_guard::HeldBack;
-use crate::stand_in::given_mesh;
+use crate::stand_in::{StandIn, given_mesh};
 
 /// Which bake an entity has its light from.
 #[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq)]
@@ -186,8 +186,12 @@ fn restore_ambient_light(world: &mut World) {
 
 /// Shows the world as it was before all bakes, or, called again, as it is after them. Nothing counts as changed.
 pub(crate) fn swap_with_before(world: &mut World) {
-    for (mut mesh, lit) in world.query::<(&mut Mesh3d, &Lit)>().iter_mut(world) {
-        let mesh = &mut mesh.bypass_change_detection().0;
+    for (mut drawn, stand_in, lit) in world.query::<(&mut Mesh3d, Option<&mut StandIn>, &Lit)>().iter_mut(world) {
+        let drawn = &mut drawn.bypass_change_detection().0;
+        let mesh = match stand_in.map(Mut::into_inner) {
+            Some(stand_in) if stand_in.drawn == *drawn => &mut stand_in.given,
+            _ => drawn,
+        };
         if *mesh == lit.baked_mesh {
             *mesh = lit.mesh.clone();
         } else if *mesh == lit.mesh {

@@ -178,7 +178,9 @@ pub struct MaterialInputs {
     pub base_color_texture: Option<(Handle<Image>, UvChannel)>,
     /// In `[0, 1]`.
     pub metallic: f32,
-    /// Its blue channel multiplies `metallic`.
+    /// Perceptual, in `[0, 1]`.
+    pub roughness: f32,
+    /// Its blue channel multiplies `metallic`, its green channel `roughness`.
     pub metallic_texture: Option<(Handle<Image>, UvChannel)>,
     /// In cd/m2; alpha has no meaning.
     pub emissive: LinearRgba,
@@ -192,8 +194,14 @@ pub struct MaterialInputs {
     pub double_sided: bool,
     /// Whether light has no say in how the material looks.
     pub unlit: bool,
-    /// Share of the light that passes as through glass, in `[0, 1]`, which a bake does not know.
+    /// Share of the light that passes as through glass, in `[0, 1]`.
     pub transmission: f32,
+    /// Of the glass, in meters; 0: nothing is absorbed within.
+    pub thickness: f32,
+    /// What is left of white light after `attenuation_distance`.
+    pub attenuation_color: Color,
+    /// In meters; infinite: nothing is absorbed.
+    pub attenuation_distance: f32,
     /// Whether any texture is looked up by the second set of coordinates.
     pub reads_uv_1: bool,
 }
@@ -216,6 +224,7 @@ macro_rules! material_inputs {
             base_color: material.base_color,
             base_color_texture,
             metallic: material.metallic,
+            roughness: material.perceptual_roughness,
             metallic_texture,
             emissive: material.emissive,
             emissive_texture,
@@ -224,6 +233,9 @@ macro_rules! material_inputs {
             double_sided: material.double_sided,
             unlit: material.unlit,
             transmission: material.specular_transmission,
+            thickness: material.thickness,
+            attenuation_color: material.attenuation_color,
+            attenuation_distance: material.attenuation_distance,
             reads_uv_1,
         }
     }};
@@ -254,26 +266,45 @@ pub fn material(
         Some(TextureRef { texture: texture_index(image)?, uv_set: uv_set(channel), transform })
     };
     let base_color = Vec4::from_array(inputs.base_color.to_linear().to_f32_array()).clamp(Vec4::ZERO, Vec4::ONE);
-    let (alpha, base_color) = match inputs.alpha_mode {
-        AlphaMode::Opaque => (material::AlphaMode::Opaque, base_color),
-        AlphaMode::Mask(cutoff) => (material::AlphaMode::Mask(cutoff), base_color),
-        // What is added or multiplied to the picture does not hold light back as a surface does.
-        AlphaMode::Add | AlphaMode::Multiply => (material::AlphaMode::Blend, base_color.truncate().extend(0.0)),
+    let transmission = inputs.transmission.clamp(0.0, 1.0);
+    let (alpha, base_color, transmission) = match inputs.alpha_mode {
+        AlphaMode::Opaque => (material::AlphaMode::Opaque, base_color, transmission),
+        AlphaMode::Mask(cutoff) => (material::AlphaMode::Mask(cutoff), base_color, transmission),
+        // What is added to the picture does not hold light back as a surface does.
+        AlphaMode::Add => (material::AlphaMode::Blend, base_color.truncate().extend(0.0), transmission),
+        // What is behind is multiplied by the color as far as alpha says: that is glass.
+        AlphaMode::Multiply => (material::AlphaMode::Opaque, Vec4::ONE.lerp(base_color, base_color.w).with_w(1.0), 1.0),
         AlphaMode::Blend | AlphaMode::Premultiplied | AlphaMode::AlphaToCoverage => {
-            (material::AlphaMode::Blend, base_color)
+            (material::AlphaMode::Blend, base_color, transmission)
         }
     };
     material::Material {
         name: name.to_owned(),
         base_color,
         base_color_texture: reference(&inputs.base_color_texture),
-        metallic: inputs.metallic.clamp(0.0, 1.0),
+        metallic: if inputs.alpha_mode == AlphaMode::Multiply { 0.0 } else { inputs.metallic.clamp(0.0, 1.0) },
+        roughness: inputs.roughness.clamp(0.0, 1.0),
         metallic_texture: reference(&inputs.metallic_texture),
         emissive: inputs.emissive.to_vec3().max(Vec3::ZERO),
         emissive_texture: reference(&inputs.emissive_texture),
         alpha,
+        transmission,
+        absorption: absorption(inputs),
+        thickness: inputs.thickness.max(0.0),
         double_sided: inputs.double_sided,
     }
+}
+
+/// Darker attenuation colors than this absorb as this one does.
+const DARKEST: f32 = 1e-4;
+
+/// What glass takes from light on its way, in 1/m: nothing where it has no thickness, as glTF has it.
+fn absorption(inputs: &MaterialInputs) -> Vec3 {
+    if !(inputs.thickness > 0.0 && inputs.attenuation_distance.is_finite()) {
+        return Vec3::ZERO;
+    }
+    let left = inputs.attenuation_color.to_linear().to_vec3().clamp(Vec3::splat(DARKEST), Vec3::ONE);
+    left.map(|left| -left.ln() / inputs.attenuation_distance.max(f32::MIN_POSITIVE))
 }
 
 fn uv_set(channel: &UvChannel) -> UvSet {
@@ -518,5 +549,47 @@ mod tests {
         assert_eq!(emissive.transform.transform_point2(Vec2::ONE), Vec2::splat(3.0));
         // A picture that cannot be read leaves the factor.
         assert!(super::material("paint", &inputs, |_| None).emissive_texture.is_none());
+    }
+
+    /// Glass keeps its color and what it absorbs: after the attenuation distance its color is left. Smooth metal keeps its
+    /// roughness. What multiplies the picture is glass.
+    #[test]
+    fn materials_keep_mirrors_and_glass() {
+        let gltf = GltfMaterial {
+            base_color: Color::linear_rgba(0.2, 0.4, 0.6, 0.5),
+            metallic: 1.0,
+            perceptual_roughness: 0.05,
+            specular_transmission: 0.9,
+            thickness: 0.02,
+            attenuation_color: Color::linear_rgb(0.5, 0.25, 1.0),
+            attenuation_distance: 0.1,
+            ..default()
+        };
+        let core = |gltf: &GltfMaterial| material("glass", &MaterialInputs::from(gltf), |_| None);
+        let glass = core(&gltf);
+        assert_eq!((glass.metallic, glass.roughness, glass.transmission, glass.thickness), (1.0, 0.05, 0.9, 0.02));
+        assert!(glass.transmittance(0.1).abs_diff_eq(Vec3::new(0.5, 0.25, 1.0), 1e-5));
+        assert!(glass.may_be_mirror() && !core(&GltfMaterial::default()).may_be_mirror());
+        let thin = core(&GltfMaterial { thickness: 0.0, ..gltf.clone() });
+        assert_eq!(thin.absorption, Vec3::ZERO);
+        let filter = core(&GltfMaterial { alpha_mode: AlphaMode::Multiply, ..gltf });
+        assert_eq!((filter.transmission, filter.alpha), (1.0, material::AlphaMode::Opaque));
+        assert!(filter.base_color.abs_diff_eq(Vec4::new(0.6, 0.7, 0.8, 1.0), 1e-6));
+        assert_eq!(filter.opacity_at(&[], Vec2::NAN, Vec2::NAN, Vec4::ONE), 0.0);
+    }
+
+    /// What is blended holds back a part of the light, what is added or multiplied none of it.
+    #[test]
+    fn glass_lets_light_through() {
+        let opacity = |alpha_mode| {
+            let glass = GltfMaterial { base_color: Color::srgba(1.0, 1.0, 1.0, 0.4), alpha_mode, ..default() };
+            let core = material("glass", &MaterialInputs::from(&glass), |_| None);
+            assert_eq!(core.is_opaque(), alpha_mode == AlphaMode::Opaque);
+            core.opacity_at(&[], Vec2::NAN, Vec2::NAN, Vec4::ONE)
+        };
+        for mode in [AlphaMode::Blend, AlphaMode::Premultiplied, AlphaMode::AlphaToCoverage] {
+            assert_eq!(opacity(mode), 0.4, "{mode:?}");
+        }
+        assert_eq!([AlphaMode::Add, AlphaMode::Multiply].map(opacity), [0.0; 2]);
     }
 }

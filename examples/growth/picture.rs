@@ -24,6 +24,7 @@ pub fn draw(series: &Series) -> Result<String, Box<dyn Error>> {
 fn draw_curve(area: &DrawingArea<SVGBackend<'_>, Shift>, name: &str, curve: &Curve) -> Result<(), Box<dyn Error>> {
     let Curve { measured, points, law } = curve;
     let [x, y] = [0, 1].map(|axis| bounds(points.iter().map(|point| point[axis])));
+    let y = decades(y);
     let dashed = match law {
         Law::Linear => "as their number",
         Law::Logarithmic => "as its logarithm",
@@ -59,6 +60,12 @@ fn bounds(numbers: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
     [0.7 * low.max(1e-9), 1.5 * high.max(2e-9)]
 }
 
+/// Out to powers of ten, which have labels.
+fn decades([low, high]: [f64; 2]) -> [f64; 2] {
+    [10_f64.powf(low.log10().floor()), 10_f64.powf(high.log10().ceil())]
+}
+
 fn label(number: &f64) -> String {
-    if *number >= 1e4 { format!("{number:.0e}") } else { format!("{number}") }
+    let rounded = (number * 1e9).round() / 1e9;
+    if *number >= 1e4 { format!("{number:.0e}") } else { format!("{rounded}") }
 }

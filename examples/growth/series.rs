@@ -92,8 +92,7 @@ impl Bakes {
     /// The time of each bake, as `seconds` has it, and its memory.
     fn series(self, name: &'static str, measured: &'static str, law: Law, seconds: fn(&Report) -> f64) -> Series {
         let time = self.0.iter().map(|(number, report, _)| [*number as f64, seconds(report)]).collect();
-        // A system that tells nothing says 0, which has no logarithm.
-        let memory = self.0.iter().map(|(number, _, peak)| [*number as f64, (*peak as f64 / 1048576.0).max(1.0)]);
+        let memory = self.0.iter().map(|(number, _, peak)| [*number as f64, *peak as f64 / 1048576.0]);
         let series = Series {
             name,
             time: Curve { measured, points: time, law },

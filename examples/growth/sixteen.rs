@@ -4,7 +4,6 @@ use std::error::Error;
 use std::time::Instant;
 
 use radiosity::bake::{BakeSettings, Quality, bake_into};
-use radiosity::geometry::NoLog;
 use radiosity::light::LightSource;
 use radiosity::lightmap::{LayoutSettings, LightmapImage, Resolution};
 use radiosity::progress::Progress;
@@ -47,7 +46,7 @@ pub fn bake_sixteen(side: u32) -> Result<(), Box<dyn Error>> {
         println!("{seconds:>7.0} s: image {index}, {} x {}, mean {mean:.2} cd/m2", image.width, image.height);
         Ok(())
     };
-    let report = bake_into(&scene, &settings, &Progress::default(), &NoLog, &mut take)?.report;
+    let report = bake_into(&scene, &settings, &Progress::default(), None, &mut take)?.report;
     let peak = memory::peak().saturating_sub(before);
     for stage in &report.stages {
         println!("{:>10} {:>8.1} s {:>8.1} Mrays", stage.name, stage.seconds, stage.rays as f64 * 1e-6);

@@ -14,13 +14,14 @@ viewer [SCENE.glb] [OPTIONS]     without a scene: the Cornell box
   --quality draft|medium|high    how many rays and texels; draft by default
   --texels-per-meter N           density; by default the quality chooses it
   --view NAME                    lit, lightmap, albedo, invalid, charts, patches,
-                                 density, error or seams
+                                 density, error, seams or truth
   --screenshot FILE.png          without a window: bakes, writes a picture of the view, and ends
 
-  1 lit   2 lightmap   3 albedo   4 invalid   5 charts   6 patches   7 density   8 error   9 seams   Escape ends
+  1 lit   2 lightmap   3 albedo   4 invalid   5 charts   6 patches   7 density   8 error   9 seams   0 truth   Escape ends
   invalid: each texel; gray were computed, red lie inside geometry and were filled in, blue are gutters
   density: green as the bake has it, blue a quarter, red four times as many texels per meter
   error, seams: estimated error and step of light, from blue at 0 to red at 10 %
+  truth: the error of some texels, found by paths of light, in the same colors; it takes some seconds
   drag: turn   drag with the right button, W A S D, Q E: move   wheel: nearer, farther";
 
 /// What was said.

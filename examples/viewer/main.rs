@@ -6,6 +6,7 @@ mod camera;
 mod false_color;
 mod scene;
 mod screenshot;
+mod truth;
 mod views;
 mod windowless;
 
@@ -30,7 +31,7 @@ fn main() -> AppExit {
     } else {
         app.add_plugins((in_window(defaults), bar::plugin));
     }
-    app.add_plugins((RadiosityPlugins, camera::plugin, scene::plugin, views::plugin))
+    app.add_plugins((RadiosityPlugins, camera::plugin, scene::plugin, views::plugin, truth::plugin))
         .insert_resource(args.bake_settings())
         .insert_resource(args.view)
         .insert_resource(args)

@@ -4,10 +4,10 @@ use bevy::camera::RenderTarget;
 use bevy::prelude::*;
 use bevy::render::render_resource::TextureFormat;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
-use bevy_radiosity::bake::AppliedBake;
 
 use crate::args::Args;
 use crate::camera::Orbit;
+use crate::truth::is_ready;
 use crate::windowless::write;
 
 const SIZE: [u32; 2] = [640, 480];
@@ -16,9 +16,7 @@ const FRAMES: usize = 8;
 
 /// Waits for the bake, takes the picture and ends the app.
 pub fn plugin(app: &mut App) {
-    app.add_systems(PostStartup, draw_into_image)
-        .add_systems(Update, take.run_if(resource_exists::<AppliedBake>))
-        .add_observer(save);
+    app.add_systems(PostStartup, draw_into_image).add_systems(Update, take.run_if(is_ready)).add_observer(save);
 }
 
 #[derive(Resource)]

@@ -37,7 +37,7 @@ pub enum View {
     Quality(FalseColor),
 }
 
-const VIEWS: [(KeyCode, &str, View); 9] = [
+const VIEWS: [(KeyCode, &str, View); 10] = [
     (KeyCode::Digit1, "lit", View::Lit),
     (KeyCode::Digit2, "lightmap", View::Lightmap),
     (KeyCode::Digit3, "albedo", View::Albedo),
@@ -47,6 +47,7 @@ const VIEWS: [(KeyCode, &str, View); 9] = [
     (KeyCode::Digit7, "density", View::Quality(FalseColor::Density)),
     (KeyCode::Digit8, "error", View::Quality(FalseColor::Error)),
     (KeyCode::Digit9, "seams", View::Quality(FalseColor::Seams)),
+    (KeyCode::Digit0, "truth", View::Quality(FalseColor::Truth)),
 ];
 
 impl View {
@@ -63,7 +64,7 @@ struct Own(Handle<StandardMaterial>, usize);
 
 /// What is baked.
 #[derive(Resource)]
-struct Source(Arc<Collected>);
+pub struct Source(pub Arc<Collected>);
 
 fn any_added(surfaces: Query<(), Added<Own>>) -> bool {
     !surfaces.is_empty()

@@ -25,6 +25,9 @@ use crate::stand_in::given_mesh;
 /// What the sun looks like from Earth, in radians.
 const SUN_DIAMETER: f32 = 0.53 * std::f32::consts::PI / 180.0;
 
+/// Glass of a larger roughness scatters what it lets through.
+const MATT: f32 = 0.3;
+
 /// The scene of a bake and where its parts come from.
 #[derive(Clone, Debug, Default)]
 pub struct Collected {
@@ -183,8 +186,8 @@ impl<'w> Collector<'w> {
             return (known, !inputs.unlit);
         }
         let name = name.unwrap_or_else(|| format!("material of {surface}"));
-        if inputs.transmission > 0.0 {
-            let note = "is a material that transmits light, and a bake takes it as opaque; blend it by alpha instead";
+        if inputs.transmission > 0.0 && inputs.roughness > MATT {
+            let note = "is matt glass, which scatters light, and a bake takes it for clear; blend it by alpha instead";
             self.note(note, name.clone());
         }
         let material = convert::material(&name, &inputs, |image| self.texture(image, &name));

@@ -60,12 +60,27 @@ pub(super) struct Args {
     #[arg(long)]
     pub transport: bool,
 
-    /// Write density.png, error.png, invalid.png and seams.png too: how good the bake is, seen as preview.png is
+    /// Write density.png, error.png, invalid.png and seams.png too: how good the bake is, seen as preview.png is; with
+    /// --reference also truth.png
     #[arg(long)]
     pub views: bool,
 
+    /// Hold the bake against paths of light to N random points, and tell its true error in report.json
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..))]
+    pub reference: Option<u32>,
+
+    /// Follow paths of light to each pixel of preview.png too, into FILE.png; FILE-beside.png has both pictures,
+    /// FILE-difference.png how much too dark (blue) or too bright (red) the baked one is, up to 10 %. Paths take the scene
+    /// as the bake does: diffuse, with mirrors and with glass that does not bend light
+    #[arg(long, value_name = "FILE.png", value_parser = png_file)]
+    pub render: Option<PathBuf>,
+
+    /// Paths for each pixel, rounded up to a multiple of 16
+    #[arg(long, value_name = "N", default_value_t = 64, requires = "render", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub samples: u32,
+
     /// Make the lightmaps of a folder anew for other lamps and colors, by its transport.bin; its other files stay
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "out", "transport", "views"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "out", "transport", "views", "reference", "render"])]
     pub relight: Option<PathBuf>,
 
     /// Factor on what a lamp, or a material that emits, gave in the bake: one for all channels or three; 0 is off
@@ -202,6 +217,12 @@ fn named_color(text: &str) -> Result<NamedColor, String> {
     Ok(NamedColor { name: name.into(), color })
 }
 
+fn png_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_png = path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("png"));
+    if is_png { Ok(path) } else { Err("its name must end in .png".into()) }
+}
+
 fn image_side(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(side @ 16..=4096) if side % 4 == 0 => Ok(side),
@@ -299,5 +320,17 @@ mod tests {
         }
         assert!(resolution(&["--threads", "256"]).is_ok() && resolution(&["--threads", "257"]).is_err());
         assert!(resolution(&["--resolution", "512", "--texels-per-meter", "8"]).is_err());
+    }
+
+    #[test]
+    fn pictures_are_png() {
+        let read = |words: &[&str]| Args::try_parse_from([&["bake"], words].concat());
+        let args = read(&["--render", "a/b.png", "--samples", "7"]).unwrap();
+        assert_eq!((args.render, args.samples), (Some("a/b.png".into()), 7));
+        assert_eq!(read(&["--render", "b.PNG"]).unwrap().samples, 64);
+        for wrong in [&["--render", "b.jpg"][..], &["--render", ".png"], &["--render"], &["--samples", "7"]] {
+            assert!(read(wrong).is_err(), "{wrong:?}");
+        }
+        assert!(read(&["--render", "b.png", "--samples", "0"]).is_err());
     }
 }

@@ -32,7 +32,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use radiosity::bake::{Bake, BakeSettings, bake_into};
-use radiosity::geometry::{NoLog, RayLog};
+use radiosity::geometry::RayLog;
 use radiosity::lightmap::LightmapImage;
 use radiosity::progress::{Cancelled, Progress};
 use radiosity::scene::Scene;
@@ -135,15 +135,12 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     let memory = Budget::new(settings.memory_bytes)?;
     let settings = BakeSettings { memory_bytes: memory.left(), ..settings };
     let scene = &loaded.collected.scene;
-    let (mut bake, sizes) = match &args.dump_rays {
-        None => bake_watched(scene, &settings, &memory, &NoLog, &mut staging)?,
-        Some(file) => {
-            let dump = RayDump::default();
-            let baked = bake_watched(scene, &settings, &memory, &dump, &mut staging)?;
-            dump.write(file)?;
-            baked
-        }
-    };
+    let dump = args.dump_rays.as_ref().map(|file| (RayDump::default(), file));
+    let log = dump.as_ref().map(|(dump, _)| dump as &dyn RayLog);
+    let (mut bake, sizes) = bake_watched(scene, &settings, &memory, log, &mut staging)?;
+    if let Some((dump, file)) = dump {
+        dump.write(file)?;
+    }
     bake.report.estimated_memory_bytes += memory.resident;
     for warning in &bake.report.warnings {
         eprintln!("warning: {warning}");
@@ -170,7 +167,7 @@ fn bake_watched(
     scene: &Scene,
     settings: &BakeSettings,
     memory: &Budget,
-    log: &impl RayLog,
+    log: Option<&dyn RayLog>,
     staging: &mut Staging,
 ) -> Result<(Bake, Vec<[u32; 2]>), CliError> {
     let (progress, interrupted) = (Progress::default(), staging.interrupted);

@@ -2,6 +2,7 @@
 
 use radiosity::bake::Report;
 use radiosity::lightmap::Resolution;
+use radiosity::render::Truth;
 use serde::Serialize;
 
 use super::args::Args;
@@ -34,6 +35,8 @@ pub(super) struct ReportFile<'a> {
     closure_error: f32,
     energy_balance: f32,
     estimated_error: EstimatedError,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    true_error: Option<TrueError>,
     seams: Seams,
     warnings: &'a [String],
 }
@@ -62,6 +65,26 @@ struct EstimatedError {
     bias: f32,
 }
 
+/// What paths of light say about the bake.
+#[derive(Serialize)]
+struct TrueError {
+    points: usize,
+    paths: u32,
+    rms: f32,
+    rms_without_worst: f32,
+    p50: f32,
+    p95: f32,
+    bias: f32,
+    standard_error: f32,
+}
+
+impl From<Truth> for TrueError {
+    fn from(truth: Truth) -> Self {
+        let Truth { points, paths, rms, rms_without_worst, p50, p95, bias, standard_error } = truth;
+        Self { points, paths, rms, rms_without_worst, p50, p95, bias, standard_error }
+    }
+}
+
 /// Steps between the two sides of seams.
 #[derive(Serialize)]
 struct Seams {
@@ -73,6 +96,11 @@ struct Seams {
 }
 
 impl<'a> ReportFile<'a> {
+    /// The same with what paths of light say.
+    pub fn with_truth(self, truth: Option<Truth>) -> Self {
+        Self { true_error: truth.map(Into::into), ..self }
+    }
+
     /// Puts together what the bake and what the command line know.
     pub fn new(args: &Args, scene: &'a str, report: &Report, ev100: f32, seconds: f64, warnings: &'a [String]) -> Self {
         let settings = args.settings();
@@ -120,6 +148,7 @@ impl<'a> ReportFile<'a> {
                 noise: report.estimated_error.noise,
                 bias: report.estimated_error.bias,
             },
+            true_error: None,
             seams: Seams {
                 pairs: report.seams.pairs,
                 step_before: report.seams.step_before,

@@ -3,10 +3,11 @@
 use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use radiosity::bake::{Bake, BakeSettings};
-use radiosity::render::FalseColor;
+use radiosity::render::{FalseColor, Truth};
 use serde::Serialize;
 
 use super::args::Args;
@@ -46,23 +47,57 @@ impl Written<'_> {
         }
         self.add_coordinates()?;
         staging.write("scene.glb", &self.document.to_glb())?;
-        let Loaded { collected, camera, .. } = &self.loaded;
-        let pictures = Pictures::new(&collected.scene, &self.bake, *camera, staging.interrupted);
-        let (picture, ev100) = pictures.preview(self.args.ev100)?;
-        staging.write("preview.png", &picture)?;
-        for shown in FalseColor::ALL.into_iter().filter(|_| self.args.views) {
-            staging.write(&format!("{}.png", shown.name()), &pictures.false_color(shown)?)?;
-        }
+        let ev100 = self.draw(&mut staging)?;
+        let truth = self.hold(&mut staging)?;
+        let Loaded { collected, .. } = &self.loaded;
         let warnings = [&collected.warnings[..], &self.bake.report.warnings].concat();
         let scene = self.args.scene.as_deref().and_then(Path::file_name);
         let scene = scene.map_or("Cornell box".into(), |name| name.to_string_lossy());
         let seconds = self.start.elapsed().as_secs_f64();
         let report = ReportFile::new(self.args, &scene, &self.bake.report, ev100, seconds, &warnings);
+        let report = report.with_truth(truth);
         staging.write("report.json", &json(&report)?)?;
         staging.write(FILE_NAME, &json(&manifest)?)?;
         staging.commit()?;
         self.remove_leftovers();
         Ok(self.summary(ev100, seconds))
+    }
+
+    /// Writes the pictures; returns the EV100 of the preview.
+    fn draw(&self, staging: &mut Staging<'_>) -> Result<f32, CliError> {
+        let pictures = self.pictures(staging.interrupted);
+        let (picture, ev100) = pictures.preview(self.args.ev100)?;
+        staging.write("preview.png", &picture)?;
+        for shown in FalseColor::ALL.into_iter().filter(|_| self.args.views) {
+            staging.write(&format!("{}.png", shown.name()), &pictures.false_color(shown)?)?;
+        }
+        if let Some(file) = &self.args.render {
+            pictures.render(file, self.args.samples, ev100)?;
+        }
+        Ok(ev100)
+    }
+
+    /// Holds the bake against paths of light, if that is asked for.
+    fn hold(&mut self, staging: &mut Staging<'_>) -> Result<Option<Truth>, CliError> {
+        let Some(points) = self.args.reference else { return Ok(None) };
+        let kept = self.bake.images.iter().map(|image| [image.width, image.height]);
+        if kept.ne(self.sizes.iter().copied()) {
+            let warning = "--reference holds lightmaps of fewer texels than the files have, for they are large";
+            eprintln!("warning: {warning}");
+            self.bake.report.warnings.push(warning.into());
+        }
+        let pictures = self.pictures(staging.interrupted);
+        let truth = pictures.truth(points)?;
+        if self.args.views {
+            self.bake.true_errors = pictures.true_errors(points)?;
+            let picture = self.pictures(staging.interrupted).false_color(FalseColor::Truth)?;
+            staging.write("truth.png", &picture)?;
+        }
+        Ok(Some(truth))
+    }
+
+    fn pictures<'a>(&'a self, interrupted: &'a AtomicBool) -> Pictures<'a> {
+        Pictures::new(&self.loaded.collected.scene, &self.bake, self.loaded.camera, interrupted)
     }
 
     fn manifest(&self) -> Manifest {

@@ -117,6 +117,33 @@ fn coordinates_in_use_are_marked() {
     assert!(collected(&mut app).scene.meshes[0].uv_1_in_use);
 }
 
+/// Mirrors and clear glass are what they are; matt glass is taken for clear, and that is said.
+#[test]
+fn mirrors_and_glass_are_collected() {
+    let mut app = app();
+    let (mesh, _) = cube(&mut app);
+    let mirror = paint(&mut app, GltfMaterial { metallic: 1.0, perceptual_roughness: 0.0, ..default() });
+    let pane = GltfMaterial {
+        base_color: Color::linear_rgb(0.9, 0.1, 0.1),
+        specular_transmission: 1.0,
+        perceptual_roughness: 0.1,
+        ..default()
+    };
+    let matt = paint(&mut app, GltfMaterial { perceptual_roughness: 0.8, ..pane.clone() });
+    let pane = paint(&mut app, pane);
+    app.world_mut().spawn((Baked::default(), Transform::default())).with_children(|root| {
+        root.spawn((Name::new("mirror"), mesh.clone(), mirror));
+        root.spawn((Name::new("pane"), mesh.clone(), pane));
+        root.spawn((Name::new("matt pane"), mesh.clone(), matt));
+    });
+    let Collected { scene, warnings, .. } = collected(&mut app);
+    let of = |surface: usize| &scene.materials[scene.surfaces[surface].material];
+    assert!(of(0).may_be_mirror() && of(0).is_opaque() && !of(0).is_glass());
+    assert!(of(1).is_glass() && of(1).may_filter(false) && !of(1).is_opaque());
+    assert!(of(2).is_glass() && warnings.len() == 1, "{warnings:?}");
+    assert!(warnings[0].contains("matt pane") && warnings[0].contains("clear"), "{warnings:?}");
+}
+
 #[test]
 fn lights_have_their_angles_and_warn_of_their_range() {
     let mut app = app();
