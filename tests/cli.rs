@@ -135,6 +135,46 @@ fn paths_of_light_agree_with_the_bake() {
     assert!(error["p50"].as_f64().is_some_and(|p50| p50 > 0.0 && p50 < 0.2), "{error}");
 }
 
+/// A room without lamps under skies: one color, a panorama that is the same, and what is kept of it twice as bright.
+#[test]
+fn skies_light_rooms() {
+    let folder = TestFolder::new("skies");
+    let mut room = Glb::room();
+    room.lights.clear();
+    room.nodes.pop();
+    let scene = folder.write("room.glb", &room.bytes());
+    let panorama = folder.path().join("even.exr");
+    exr::prelude::write_rgb_file(&panorama, 8, 4, |_, _| (2.0_f32, 1.0_f32, 0.5_f32)).expect("it can be written");
+    let panorama = panorama.to_str().expect("it has a name in Unicode");
+    let out = folder.path().join("out");
+    let light = || {
+        let image = exr::prelude::read_first_rgba_layer_from_file(
+            out.join("lightmap-0.exr"),
+            |_, _| [0.0_f64; 3],
+            |sums, _, (r, g, b, _): (f32, f32, f32, f32)| {
+                sums.iter_mut().zip([r, g, b]).for_each(|(sum, channel)| *sum += f64::from(channel));
+            },
+        );
+        image.expect("an EXR file").layer_data.channel_data.pixels
+    };
+    bake(&scene, &out, &["--sky", "4,2,1"]).expect("a sky is light");
+    let even = light();
+    assert!(even[2] > 1.0);
+    let more = ["--sky", panorama, "--sky-scale", "2", "--sky-turn", "-30", "--transport"];
+    bake(&scene, &out, &more).expect("a panorama is a sky");
+    let of_image = light();
+    let twice = ["bake", "--relight", out.to_str().expect("Unicode"), "--light", "sky=2"].map(OsString::from);
+    try_run(twice, &AtomicBool::new(false)).expect("the sky is kept");
+    for ((even, of_image), twice) in even.into_iter().zip(of_image).zip(light()) {
+        assert!(
+            (of_image / even - 1.0).abs() < 0.02 && (twice / of_image - 2.0).abs() < 0.05,
+            "{even} {of_image} {twice}"
+        );
+    }
+    let error = bake(&scene, &out, &["--sky", "nowhere.hdr"]).expect_err("there is no such sky").to_string();
+    assert!(error.contains("nowhere.hdr"), "{error}");
+}
+
 /// Every field that others read is there, and the sums are right.
 fn report_is_complete(report: &Value) {
     let numbers = "triangles surfaces texels valid_texels invalid_texels patches nodes images texels_per_meter ev100 \

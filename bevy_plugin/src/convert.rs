@@ -1,6 +1,9 @@
 //! Bevy's meshes, images, materials, lights and units, and those of the core. The only file that knows both.
 
 pub mod cubics;
+mod sky;
+
+pub(crate) use self::sky::*;
 
 use std::f32::consts::PI;
 

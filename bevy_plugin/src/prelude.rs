@@ -2,7 +2,7 @@
 
 #[cfg(feature = "render")]
 pub use crate::RadiosityPlugins;
-pub use crate::bake::{AngularDiameter, BakeId, BakeOnLoad, Baked, NotBaked};
+pub use crate::bake::{AngularDiameter, BakeId, BakeOnLoad, Baked, NotBaked, SkyLight};
 #[cfg(feature = "render")]
 pub use crate::bake::{
     BakeCancelled, BakeDone, BakeFailed, BakeProgress, BakeSettings, BakeStarted, CancelBake, Quality, RemoveBake,

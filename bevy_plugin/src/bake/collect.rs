@@ -16,7 +16,7 @@ use radiosity::light::{Light, LightSource};
 use radiosity::scene::{CurvedMesh, Receiver, Scene, Surface};
 
 use self::found::{Found, LOOKUPS};
-use super::components::{AngularDiameter, Baked, NotBaked};
+use super::components::{AngularDiameter, Baked, NotBaked, SkyLight};
 use crate::convert;
 use crate::gltf::GltfSource;
 use crate::spline::SplineMesh;
@@ -37,18 +37,20 @@ pub struct Collected {
     pub surfaces: Vec<Entity>,
     /// For each mesh of the scene its asset.
     pub mesh_handles: Vec<Handle<Mesh>>,
-    /// For each light of the scene its entity.
+    /// For each light of the scene its entity; suns of the sky come after these and have none.
     pub lights: Vec<Entity>,
     /// What the user should know, each with the remedy.
     pub warnings: Vec<String>,
 }
 
-/// Collects every mesh and every light below a [`Baked`]. Call it when transforms are propagated and assets loaded.
+/// Collects every mesh and every light below a [`Baked`], and the [`SkyLight`]. Call it when transforms are propagated and assets loaded.
 ///
 /// The order depends on the hierarchy alone, so that equal worlds give equal scenes.
 pub fn collect(world: &mut World) -> Collected {
     let mut roots: Vec<Entity> = world.query_filtered::<Entity, With<Baked>>().iter(world).collect();
     roots.sort();
+    let mut skies: Vec<Entity> = world.query_filtered::<Entity, With<SkyLight>>().iter(world).collect();
+    skies.sort();
     let world = &*world;
     let mut collector = Collector::new(world);
     for root in roots {
@@ -56,6 +58,7 @@ pub fn collect(world: &mut World) -> Collected {
             collector.walk(root);
         }
     }
+    collector.add_sky(&skies);
     collector.finish()
 }
 
@@ -243,6 +246,41 @@ impl<'w> Collector<'w> {
             }
             self.collected.scene.lights.push(Light { name, source });
             self.collected.lights.push(entity.id());
+        }
+    }
+
+    /// The first of the skies that is to be baked.
+    fn add_sky(&mut self, skies: &[Entity]) {
+        let world = self.world;
+        let mut skies = skies.iter().filter_map(|&entity| world.get_entity(entity).ok());
+        let is_baked = |entity: &EntityRef| {
+            !entity.contains::<NotBaked>() && ancestors(world, entity.id()).all(|above| !above.contains::<NotBaked>())
+        };
+        let Some(entity) = skies.find(is_baked) else { return };
+        let Some(sky) = entity.get::<SkyLight>() else { return };
+        let name = name_of(world, entity);
+        for other in skies.filter(is_baked) {
+            self.note("is a second sky and left out; remove one of both", name_of(world, other));
+        }
+        let color = sky.color.to_linear();
+        let radiance = Vec3::new(color.red, color.green, color.blue) * sky.brightness;
+        if !(radiance.is_finite() && radiance.min_element() >= 0.0 && sky.rotation.is_normalized()) {
+            let note = "is a sky that is left out, because its color, brightness or rotation is negative, not finite or \
+                        of another length than 1; correct it";
+            return self.note(note, name);
+        }
+        let scene = &mut self.collected.scene;
+        let Some(handle) = &sky.image else {
+            scene.sky = radiance;
+            return;
+        };
+        let image = match world.get_resource::<Assets<Image>>().and_then(|images| images.get(handle)) {
+            None => Err("is not loaded; wait for its asset before the bake".to_owned()),
+            Some(image) => convert::sky(image),
+        };
+        match image {
+            Ok(image) => convert::put_sky(scene, image.turned(sky.rotation), radiance, &name),
+            Err(reason) => self.note(&format!("is a sky whose image {reason}. It is left out"), name),
         }
     }
 

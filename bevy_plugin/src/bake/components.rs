@@ -36,6 +36,28 @@ pub struct BakeId(pub String);
 #[reflect(Component)]
 pub struct AngularDiameter(pub f32);
 
+/// The sky over all that is baked: the bake of the world has its light, wherever it is.
+///
+/// One entity has it; of several one counts, and a warning names the others. Bevy shows no sky for it: `Skybox` does.
+#[derive(Component, Reflect, Clone, Debug, PartialEq)]
+#[reflect(Component, Default)]
+pub struct SkyLight {
+    /// Of all directions, or a factor on the image.
+    pub color: Color,
+    /// Radiance in cd/m2 of white, as that of `Skybox`.
+    pub brightness: f32,
+    /// A panorama (`.hdr`, `.exr`) or a cube as a `Skybox` has it. Its suns become baked directional lights.
+    pub image: Option<Handle<Image>>,
+    /// How the image is turned, as that of `Skybox`.
+    pub rotation: Quat,
+}
+
+impl Default for SkyLight {
+    fn default() -> Self {
+        Self { color: Color::WHITE, brightness: 1000.0, image: None, rotation: Quat::IDENTITY }
+    }
+}
+
 /// Bakes as soon as this entity is there and everything that is `Baked` is loaded, with the resource `BakeSettings`.
 ///
 /// For apps that bake once, at their start.

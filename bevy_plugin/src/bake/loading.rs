@@ -5,9 +5,9 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::world_serialization::{WorldInstance, WorldInstanceSpawner};
 
-use super::Baked;
+use super::{Baked, SkyLight};
 
-/// Looks at everything below `Baked` entities.
+/// Looks at everything below `Baked` entities, and at the sky.
 #[derive(SystemParam)]
 pub(crate) struct Loading<'w, 's> {
     baked: Query<'w, 's, Entity, With<Baked>>,
@@ -15,25 +15,32 @@ pub(crate) struct Loading<'w, 's> {
     scenes: Query<'w, 's, (&'static WorldAssetRoot, Option<&'static WorldInstance>)>,
     mesh_handles: Query<'w, 's, &'static Mesh3d>,
     material_handles: Query<'w, 's, &'static MeshMaterial3d<StandardMaterial>>,
+    skies: Query<'w, 's, &'static SkyLight>,
     meshes: Res<'w, Assets<Mesh>>,
     materials: Res<'w, Assets<StandardMaterial>>,
     spawner: Option<Res<'w, WorldInstanceSpawner>>,
     server: Res<'w, AssetServer>,
 }
 
-/// Whether a scene, a mesh, a material or a texture of what is to be baked is still loading.
+/// Whether a scene, a mesh, a material, a texture or the sky of what is to be baked is still loading.
 ///
 /// What failed to load does not come back and is not waited for.
 pub(crate) fn still_loading(loading: Loading) -> bool {
-    loading.baked.iter().any(|root| {
-        loading.entity_is_loading(root)
-            || loading.children.iter_descendants(root).any(|entity| loading.entity_is_loading(entity))
-    })
+    loading.sky_is_loading()
+        || loading.baked.iter().any(|root| {
+            loading.entity_is_loading(root)
+                || loading.children.iter_descendants(root).any(|entity| loading.entity_is_loading(entity))
+        })
 }
 
 impl Loading<'_, '_> {
     fn entity_is_loading(&self, entity: Entity) -> bool {
         self.scene_is_loading(entity) || self.mesh_is_loading(entity) || self.material_is_loading(entity)
+    }
+
+    fn sky_is_loading(&self) -> bool {
+        let images = self.skies.iter().filter_map(|sky| sky.image.as_ref());
+        !self.baked.is_empty() && images.into_iter().any(|image| self.asset_is_loading(image.id().untyped()))
     }
 
     fn scene_is_loading(&self, entity: Entity) -> bool {

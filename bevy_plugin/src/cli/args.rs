@@ -9,6 +9,8 @@ use radiosity::bake::{BakeSettings, Keep, Quality};
 use radiosity::lightmap::{LayoutSettings, Resolution, UvMode};
 use sysinfo::System;
 
+use super::sky::{self, SkyArg};
+
 /// Bakes the lightmaps of a glTF scene into a folder that Bevy loads.
 #[derive(Parser, Clone, Debug)]
 #[command(name = "bake", version)]
@@ -56,6 +58,18 @@ pub(super) struct Args {
     #[arg(long, value_name = "X", value_parser = not_negative, default_value_t = 1.0)]
     pub emissive_scale: f32,
 
+    /// The sky: a panorama as .hdr or .exr, whose suns become lights, or one color in cd/m2
+    #[arg(long, value_name = "FILE|X|R,G,B", value_parser = sky::parse)]
+    pub sky: Option<SkyArg>,
+
+    /// Factor on the sky: cd/m2 for each unit in the file
+    #[arg(long, value_name = "X", value_parser = not_negative, default_value_t = 1.0, requires = "sky")]
+    pub sky_scale: f32,
+
+    /// Turns a panorama to the right, in degrees; its middle lies towards -Z
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = finite, default_value_t = 0.0, requires = "sky")]
+    pub sky_turn: f32,
+
     /// Write transport.bin too, by which lamps and colors can change later without a bake
     #[arg(long)]
     pub transport: bool,
@@ -80,10 +94,10 @@ pub(super) struct Args {
     pub samples: u32,
 
     /// Make the lightmaps of a folder anew for other lamps and colors, by its transport.bin; its other files stay
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "out", "transport", "views", "reference", "render"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "out", "sky", "transport", "views", "reference", "render"])]
     pub relight: Option<PathBuf>,
 
-    /// Factor on what a lamp, or a material that emits, gave in the bake: one for all channels or three; 0 is off
+    /// Factor on what a lamp, a material that emits, or the "sky" gave in the bake: one for all channels or three; 0 is off
     #[arg(long, value_name = "NAME=X|R,G,B", value_parser = named_color, requires = "relight")]
     pub light: Vec<NamedColor>,
 

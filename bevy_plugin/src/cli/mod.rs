@@ -20,6 +20,7 @@ mod ray_dump;
 mod relight;
 mod report_file;
 mod scene_file;
+mod sky;
 mod write;
 
 use std::ffi::OsString;
@@ -128,6 +129,7 @@ fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliEr
     for material in &mut loaded.collected.scene.materials {
         material.emissive *= args.emissive_scale;
     }
+    sky::add(args, &mut loaded.collected.scene)?;
     for warning in &loaded.collected.warnings {
         eprintln!("warning: {warning}");
     }

@@ -18,6 +18,9 @@ use super::write::TRANSPORT;
 use crate::baked::ktx2;
 use crate::baked::manifest::{FILE_NAME, Manifest};
 
+/// The name of the sky among the lights.
+const SKY: &str = "sky";
+
 /// Writes the lightmaps of a folder anew, and nothing else of it. What changes is the light of the bake: an earlier
 /// relighting does not count.
 pub(super) fn relight(folder: &Path, args: &Args, interrupted: &AtomicBool) -> Result<String, CliError> {
@@ -62,9 +65,13 @@ fn changed(transport: &Transport, args: &Args) -> Result<Lighting, CliError> {
     for NamedColor { name, color } in &args.light {
         let lamps = with_name(&transport.lamp_names, name);
         let emitters: Vec<usize> = with_name(&transport.material_names, name).into_iter().filter(emits).collect();
-        if lamps.is_empty() && emitters.is_empty() {
+        let is_sky = name == SKY && transport.lighting.sky != Vec3::ZERO;
+        if lamps.is_empty() && emitters.is_empty() && !is_sky {
             let all = transport.material_names.iter().enumerate().filter(|(index, _)| emits(index));
             return Err(unknown("light", name, transport.lamp_names.iter().chain(all.map(|(_, name)| name))));
+        }
+        if is_sky {
+            lighting.sky *= Vec3::from(*color);
         }
         lamps.into_iter().for_each(|lamp| lighting.lamps[lamp] *= Vec3::from(*color));
         emitters.into_iter().for_each(|material| lighting.materials[material].emissive *= Vec3::from(*color));

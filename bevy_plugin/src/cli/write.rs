@@ -19,7 +19,7 @@ use super::output::Staging;
 use super::preview::Pictures;
 use super::prune::prune;
 use super::report_file::ReportFile;
-use super::scene_file;
+use super::{scene_file, sky};
 use crate::baked::manifest::{self, FILE_NAME, LightEntry, Manifest, SurfaceKey};
 
 /// The file of the transport.
@@ -164,6 +164,6 @@ pub(super) fn hash(document: &Document, args: &Args, settings: &BakeSettings) ->
     // The result depends on neither threads nor memory.
     let settings = BakeSettings { threads: 0, memory_bytes: 0, ..settings.clone() };
     let said = format!("{settings:?} {}", args.emissive_scale);
-    let parts = [document.json.to_string().as_bytes(), &document.buffer, said.as_bytes()].concat();
+    let parts = [document.json.to_string().as_bytes(), &document.buffer, said.as_bytes(), &sky::bytes(args)].concat();
     manifest::hash(&parts)
 }

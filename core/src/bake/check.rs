@@ -33,10 +33,16 @@ pub(super) fn check(scene: &Scene, settings: &BakeSettings) -> Result<(), BakeEr
         return Err(BakeError::NothingToBake);
     }
     scene.lights.iter().try_for_each(check_light)?;
+    if !(scene.sky.is_finite() && scene.sky.min_element() >= 0.0) {
+        return invalid(format!(
+            "the sky is {} cd/m2, which is negative or not finite; mend it or leave it out",
+            scene.sky
+        ));
+    }
     let emits = scene.surfaces.iter().any(|surface| surface.casts && scene.materials[surface.material].is_emissive());
     if !scene.lights.iter().any(|light| light.source.strength().max_element() > 0.0)
         && !emits
-        && scene.sky.max_element() <= 0.0
+        && scene.sky_of_patches().iter().all(|radiance| (scene.sky * radiance).max_element() <= 0.0)
     {
         return Err(BakeError::NoLight);
     }

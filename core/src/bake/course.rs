@@ -1,6 +1,7 @@
 //! The passes of a bake over its parts.
 
 use alloc::boxed::Box;
+use alloc::vec;
 use alloc::vec::Vec;
 use core::mem;
 
@@ -95,7 +96,7 @@ impl Course<'_> {
             parts.turn_to(number)?;
             rows.append(parts.pieces().rows(self.budget.row)?);
         }
-        rows.append([Row::default(), Row::default()].into());
+        rows.append(vec![Row::default(); parts.tracer.world.sky_patches() as usize + 1]);
         let columns = rows.len() as u32;
         Ok(if parts.tracer.is_plain { rows } else { rows.through(columns) })
     }

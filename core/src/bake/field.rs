@@ -2,6 +2,8 @@
 
 use alloc::vec::Vec;
 
+use glam::Vec3;
+
 use super::pieces::Pieces;
 use crate::geometry::{Hit, Occluders};
 use crate::lightmap::{NONE, Patches, Seen, Texels};
@@ -49,13 +51,13 @@ impl<'a, O: Occluders> Field<'a, O> {
         Self { tracer, texels, patches, surfaces, spread, looks }
     }
 
-    /// What a ray sees: the sky where it hits nothing.
+    /// What a ray in a direction sees: the sky where it hits nothing.
     ///
     /// A ray of many stands for a cone. What is met far away is looked at as coarsely as the cone is wide there. That is
     /// less noise for the same light.
     #[inline]
-    pub fn look(&self, hit: Option<&Hit>) -> Seen {
-        let Some(hit) = hit else { return unknown(self.surfaces.sky()) };
+    pub fn look(&self, direction: Vec3, hit: Option<&Hit>) -> Seen {
+        let Some(hit) = hit else { return unknown(self.surfaces.sky() + self.tracer.world.sky_patch(direction)) };
         let texel = if hit.front { self.texels.at(hit) } else { None };
         match texel.map(|texel| (texel, self.looks[texel as usize])) {
             Some((texel, look)) if look.area > 0.0 => self.of_texel(texel, look, hit.distance),

@@ -254,7 +254,7 @@ impl<O: Occluders> Baker<'_, O> {
             texels,
             is_valid: self.is_valid,
             tracer,
-            look: |hit: Option<&_>| field.look(hit),
+            look: |direction, hit: Option<&_>| field.look(direction, hit),
             radiance,
             black: self.surfaces.black(),
             reflectors: &reflectors,

@@ -57,7 +57,8 @@ impl<O: Occluders> Pieces<'_, O> {
     }
 
     fn row(&self, index: usize, rays: u32) -> Row {
-        let (sky, black) = (self.patches.list.len() as u32, self.patches.list.len() as u32 + 1);
+        let sky = self.patches.list.len() as u32;
+        let black = sky + self.world().sky_patches();
         let patch = &self.patches.list[index];
         let seed = hash(self.seed, index as u32);
         let sequence = Sobol::new(seed);
@@ -66,14 +67,21 @@ impl<O: Occluders> Pieces<'_, O> {
             let direction = cosine_direction(sequence.square(k), normal);
             self.tracer.leave(triangle, point, normal, direction, f32::INFINITY)
         };
-        let column = |hit: Option<&Hit>| match hit {
-            None => sky,
+        let column = |hit: Option<&Hit>, direction: Vec3| match hit {
+            None => sky + self.world().sky_patch(direction),
             Some(hit) => self.patches.at(self.tracer, self.texels, hit).map_or(black, |(patch, _)| patch),
         };
-        let nearest = |k: u32| column(self.tracer.nearest(&leave(k), hash(seed, k)).as_ref());
+        let nearest = |k: u32| {
+            let ray = leave(k);
+            column(self.tracer.nearest(&ray, hash(seed, k)).as_ref(), ray.direction)
+        };
         let parts = |k: u32| {
             let arrival = self.tracer.follow(&leave(k), hash(seed, k));
-            arrival.columns(column(arrival.hit.as_ref()), [black + 1, black], sequence.dimension(k, 3))
+            arrival.columns(
+                column(arrival.hit.as_ref(), arrival.direction),
+                [black + 1, black],
+                sequence.dimension(k, 3),
+            )
         };
         self.tracer.count(rays as usize);
         let mut ends: Vec<u32> = match self.tracer.is_plain {
@@ -85,7 +93,7 @@ impl<O: Occluders> Pieces<'_, O> {
 
     /// What the surfaces do with light: the texels that are here, and their patches. `is_light` tells which of them are lamps, whose emission counts as direct light.
     pub fn surfaces(&self, is_light: &[bool]) -> Result<Surfaces, Cancelled> {
-        let black = self.patches.list.len() as u32 + 1;
+        let black = self.patches.list.len() as u32 + self.world().sky_patches();
         let of_texel = &self.patches.of_texel;
         let texel_area = |texel: usize| if of_texel[texel] == NONE { 0.0 } else { self.texels.list[texel].area };
         let details = self.details(is_light)?;
@@ -103,6 +111,7 @@ impl<O: Occluders> Pieces<'_, O> {
             emission,
             cells: [self.cells(4), self.cells(2)],
             around: self.all_around()?,
+            sky: self.world().scene.sky_of_patches(),
         })
     }
 

@@ -5,6 +5,7 @@ mod direct;
 mod falloff;
 mod lamps;
 mod mirror;
+mod sky;
 mod tree;
 
 pub use area::*;
@@ -12,6 +13,7 @@ pub use direct::*;
 pub use falloff::*;
 pub use lamps::*;
 pub use mirror::*;
+pub use sky::*;
 pub use tree::*;
 
 use alloc::string::String;
@@ -69,7 +71,7 @@ pub struct SpotLight {
 }
 
 /// From far away, like the sun.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectionalLight {
     /// Away from the light, length 1.
     pub direction: Vec3,

@@ -22,7 +22,7 @@ pub(super) struct Cell {
 /// The widest cells, in texels.
 const WIDEST: u16 = 8;
 
-impl<O: Occluders, C: Fn(Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
+impl<O: Occluders, C: Fn(Vec3, Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
     /// Gathers wherever something has to be gathered; returns the cells between whose corners light is interpolated,
     /// wide ones first.
     ///

@@ -110,7 +110,7 @@ pub struct Gather<'a, O, C> {
     pub is_valid: &'a [bool],
     /// Sends the rays.
     pub tracer: &'a Tracer<'a, O>,
-    /// What a ray sees: the nearest hit, or the sky.
+    /// What a ray in a direction sees: the nearest hit, or the sky.
     pub look: C,
     /// The radiance of each column, in cd/m2; that of cells and patches without what is looked for on purpose.
     pub radiance: &'a [Vec3A],
@@ -136,7 +136,7 @@ const BATCH: usize = 1 << 18;
 /// Texels along the side of a tile that shares a sequence.
 const TILE: u32 = 8;
 
-impl<O: Occluders, C: Fn(Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
+impl<O: Occluders, C: Fn(Vec3, Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
     /// Gathers at nodes and interpolates: one entry for each texel, zero for those that are not valid.
     ///
     /// `direct` is the direct light of each texel, mean over the channels: errors are seen against all light.
@@ -197,7 +197,9 @@ impl<O: Occluders, C: Fn(Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
         }
         self.tracer.count(ends.len());
         // What is seen lies anywhere in memory: it is asked for at once, not between traversals.
-        let seen: Vec<Seen> = ends.iter().map(|(_, hit)| (self.look)(hit.as_ref())).collect();
+        let last = |k: usize, first: Vec3| ways.get(k).map_or(first, |way| way.arrival.direction);
+        let look = |(k, (first, hit)): (usize, &(Vec3, Option<Hit>))| (self.look)(last(k, *first), hit.as_ref());
+        let seen: Vec<Seen> = ends.iter().enumerate().map(look).collect();
         let [a, b] = [0, 1].map(|number| {
             let own = number * half as usize..(number + 1) * half as usize;
             let met = own.map(|k| match ways.get(k) {

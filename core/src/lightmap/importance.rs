@@ -57,7 +57,7 @@ impl Station<'_> {
     }
 }
 
-impl<O: Occluders, C: Fn(Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
+impl<O: Occluders, C: Fn(Vec3, Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
     /// A texel from which so many rays go in all directions.
     pub(super) fn station<'a>(&self, texel: &'a Texel, rays: u32) -> Station<'a> {
         let flat = self.tracer.world.normals[texel.triangle as usize];

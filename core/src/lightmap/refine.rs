@@ -2,6 +2,8 @@
 
 use alloc::vec::Vec;
 
+use glam::Vec3;
+
 use super::cells::Cell;
 use super::{Enough, Gather, Gathered, Nodes, Seen, Smooth, filter};
 use crate::geometry::{Hit, Occluders};
@@ -14,7 +16,7 @@ const FIRST_ROUND: u32 = 2;
 /// So many rays bring a texel just to the error that is wanted; those that are worse keep a larger one with more rays.
 const BALANCED: f32 = 160.0;
 
-impl<O: Occluders, C: Fn(Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
+impl<O: Occluders, C: Fn(Vec3, Option<&Hit>) -> Seen + Sync> Gather<'_, O, C> {
     /// Doubles the rays of nodes, round after round, until they are enough.
     pub(super) fn refine(
         &self,

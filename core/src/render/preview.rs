@@ -113,7 +113,9 @@ impl<'a> Picture<'a> {
         let (mut ray, mut last) = (*ray, None);
         let (mut arrived, mut left) = (Vec3::ZERO, Vec3::ONE);
         for _ in 0..LAYERS {
-            let Some(hit) = self.view.nearest(&ray, last.as_ref()) else { return arrived + left * self.view.scene.sky };
+            let Some(hit) = self.view.nearest(&ray, last.as_ref()) else {
+                return arrived + left * self.view.scene.sky_radiance(ray.direction);
+            };
             if let Some(tint) = self.view.mirror(&hit) {
                 left *= tint;
                 (ray, last) = (self.view.reflected(&ray, &hit), None);

@@ -13,7 +13,7 @@ use alloc::vec::Vec;
 use glam::{Affine3A, Vec3};
 
 use crate::geometry::Mesh;
-use crate::light::Light;
+use crate::light::{Light, SkyImage};
 use crate::material::{Material, Texture};
 use crate::spline::{Homogeneous, OwnedSurface};
 
@@ -30,10 +30,25 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Light sources beside emissive materials.
     pub lights: Vec<Light>,
-    /// Radiance of the surroundings in cd/m2, the same in all directions.
+    /// Radiance of the surroundings in cd/m2, the same in all directions, not negative; a factor where there is an image.
     pub sky: Vec3,
+    /// What the surroundings look like; nothing: the same in all directions. The bake takes it in
+    /// [`SKY_PATCHES`](crate::light::SKY_PATCHES) patches: [`SkyImage::take_suns`] makes a lamp of what is smaller.
+    pub sky_image: Option<SkyImage>,
     /// Which of the meshes are triangles of curved surfaces.
     pub curved: Vec<CurvedMesh>,
+}
+
+impl Scene {
+    /// Radiance in cd/m2 that arrives from the surroundings in a direction that leads there.
+    pub fn sky_radiance(&self, direction: Vec3) -> Vec3 {
+        self.sky_image.as_ref().map_or(self.sky, |image| self.sky * image.radiance(direction))
+    }
+
+    /// Radiance of each patch of the sky, over [`Scene::sky`].
+    pub(crate) fn sky_of_patches(&self) -> Vec<Vec3> {
+        self.sky_image.as_ref().map_or_else(|| alloc::vec![Vec3::ONE], SkyImage::of_patches)
+    }
 }
 
 /// A mesh that stands for a surface of splines: texels have its normals rather than interpolated ones.

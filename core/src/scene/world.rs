@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3, Vec4};
 use super::specular::{is_closed, plane_mirrors};
 use super::{CurvedMesh, Scene, Surface};
 use crate::geometry::{Hit, Mesh, Ray, lift, normal_and_area};
-use crate::light::PlaneMirror;
+use crate::light::{PlaneMirror, SKY_PATCHES, sky_patch};
 use crate::material::Material;
 
 /// So large a share of the way to the middle of its triangle is a point moved before the normal of a curved surface is
@@ -85,6 +85,17 @@ impl<'a> World<'a> {
         world.add_surfaces(|surface| !surface.casts);
         (world.mirrors, world.mirror_of) = plane_mirrors(&world);
         world
+    }
+
+    /// How many patches the sky has.
+    pub(crate) fn sky_patches(&self) -> u32 {
+        if self.scene.sky_image.is_some() { SKY_PATCHES } else { 1 }
+    }
+
+    /// The patch of the sky in a direction.
+    #[inline]
+    pub(crate) fn sky_patch(&self, direction: Vec3) -> u32 {
+        if self.scene.sky_image.is_some() { sky_patch(direction) } else { 0 }
     }
 
     fn add_surfaces(&mut self, belongs: impl Fn(&Surface) -> bool) {

@@ -38,6 +38,8 @@ pub struct Arrival {
     pub hit: Option<Hit>,
     /// The share of the light that is left, for each channel.
     pub tint: Vec3A,
+    /// Where it goes in the end.
+    pub direction: Vec3,
     /// Mirrors on the way.
     pub mirrors: u32,
 }
@@ -88,7 +90,7 @@ impl<O: Occluders> Tracer<'_, O> {
         for mirrors in 0..MOST_MIRRORS {
             let (hit, passed) = self.nearest_tinted(&ray, hash(seed, mirrors));
             tint *= passed;
-            let arrival = |hit| Arrival { hit, tint: tint.into(), mirrors };
+            let arrival = |hit| Arrival { hit, tint: tint.into(), direction: ray.direction, mirrors };
             let Some(hit) = hit else { return arrival(None) };
             let whole = Hit { distance: way + hit.distance, ..hit };
             let Some(reflected) = self.world.mirror(&hit) else { return arrival(Some(whole)) };
@@ -99,7 +101,7 @@ impl<O: Occluders> Tracer<'_, O> {
             way += hit.distance;
             ray = self.world.reflected(&ray, &hit);
         }
-        Arrival { hit: None, tint: Vec3A::ZERO, mirrors: MOST_MIRRORS }
+        Arrival { hit: None, tint: Vec3A::ZERO, direction: ray.direction, mirrors: MOST_MIRRORS }
     }
 
     /// The nearest hit, see [`Tracer::nearest`], and what light that gets there keeps of the light that passes.

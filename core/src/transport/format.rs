@@ -14,7 +14,7 @@ use super::{
 /// The first bytes of a file.
 const MAGIC: [u8; 8] = *b"RADIOSTP";
 /// What this version writes, and the only one that it reads.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 /// Magic, version, a reserved zero, length and checksum of the rest.
 const HEADER: usize = 32;
 /// Images have at most so many texels in a row and so many rows.
@@ -130,7 +130,7 @@ impl Transport {
         lighting.check(lamp_names.len(), material_names.len()).is_ok()
             && surfaces.is_sound(lighting.materials.len())
             && lamps.iter().all(|lamp| lamp.is_sound(receivers, lighting))
-            && (patches.len() == surfaces.areas.len() + 2 && patches.is_sound(patches.len()))
+            && (patches.len() == surfaces.areas.len() + surfaces.outside() && patches.is_sound(patches.len()))
             && nodes.is_sound(surfaces.columns())
             && contacts.iter().all(|contact| (contact.texel as usize) < all && (contact.node as usize) < nodes.len())
             && (texels.len() == all && texels.is_sound(nodes.len()))
@@ -220,7 +220,7 @@ macro_rules! fields {
 
 fields! {
     Transport { surfaces, lamps, patches, nodes, contacts, texels, images, seams, lighting, lamp_names, material_names }
-    Surfaces { areas, presence, materials, bare, patch_of, texel_areas, reflectance, emission, cells, around }
+    Surfaces { areas, presence, materials, bare, patch_of, texel_areas, reflectance, emission, cells, around, sky }
     Contact { texel, node }
     Cells { of_texel, count }
     Codes { largest, codes }

@@ -16,7 +16,7 @@ pub struct Lighting {
     pub lamps: Vec<Vec3>,
     /// For each material of the scene its colors.
     pub materials: Vec<MaterialColors>,
-    /// Radiance of the surroundings in cd/m2, not negative.
+    /// Radiance of the surroundings in cd/m2, not negative; a factor where they have an image.
     pub sky: Vec3,
 }
 

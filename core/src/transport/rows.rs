@@ -5,6 +5,7 @@
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::solve::FormFactors;
 use crate::spectrum::Spectrum;
@@ -178,10 +179,10 @@ impl Rows {
         sum * (1.0 / self.totals[i].max(1) as f32)
     }
 
-    /// The share of column `j` in row `i`, by the channels that get there.
-    pub fn share<S: Spectrum<Scalar = f32>>(&self, i: usize, j: u32) -> S {
-        let of_column = self.seen(i).filter(|&(column, ..)| column == j);
-        self.sum_of(i, of_column.map(|(_, channels, count)| (channels, count)))
+    /// The share of some columns in row `i`, by the channels that get there.
+    pub fn share<S: Spectrum<Scalar = f32>>(&self, i: usize, columns: Range<u32>) -> S {
+        let of_columns = self.seen(i).filter(|(column, ..)| columns.contains(column));
+        self.sum_of(i, of_columns.map(|(_, channels, count)| (channels, count)))
     }
 
     /// The share of row `i` that is absorbed on the way, by channels.
@@ -263,7 +264,7 @@ mod tests {
     #[test]
     fn rows_are_counts() {
         let rows = Rows::from(vec![Row::count(&mut [3, 4, 1, 3, 5, 3]), Row::count(&mut [])]);
-        let share = |i, j| rows.share::<f32>(i, j);
+        let share = |i, j| rows.share::<f32>(i, j..j + 1);
         assert_eq!((share(0, 3), share(0, 0), share(1, 0)), (0.5, 0.0, 0.0));
         let values = [0.0, 2.0, 0.0, 4.0, 0.0, 6.0].map(Vec3A::splat);
         assert!((rows.mean(0, &values).x - (2.0 + 3.0 * 4.0 + 6.0) / 6.0).abs() < 1e-6);
@@ -282,7 +283,7 @@ mod tests {
         let row = Row::count(&mut columns);
         assert_eq!(row.entries.len(), 1 + 3 + 4);
         let rows = Rows::from(vec![row.merge(&Row::count(&mut [2, 2]))]);
-        let share = |j| rows.share::<f32>(0, j);
+        let share = |j| rows.share::<f32>(0, j..j + 1);
         assert_eq!((share(2), share(far)), (3.0 / 1003.0, 1000.0 / 1003.0));
         assert_eq!(rows.closure_error(), 0.0);
     }
@@ -295,7 +296,7 @@ mod tests {
         let values = [Vec3A::new(1.0, 2.0, 4.0), Vec3A::new(8.0, 16.0, 32.0), Vec3A::new(64.0, 128.0, 256.0)];
         let expected = [1.0 + 24.0 + 128.0, 4.0 + 32.0 + 256.0, 8.0 + 64.0 + 768.0];
         assert!(rows.mean(0, &values).abs_diff_eq(Vec3A::from_array(expected) / 8.0, 1e-4));
-        let shares: Vec3A = (0..3).map(|j| rows.share::<Vec3A>(0, j)).sum();
+        let shares: Vec3A = rows.share(0, 0..3);
         assert_eq!(rows.absorbed::<Vec3A>(0), Vec3A::new(2.0, 2.0, 1.0) / 8.0);
         assert_eq!(shares + rows.absorbed::<Vec3A>(0), Vec3A::ONE);
         assert_eq!(rows.closure_error(), 0.0);
@@ -306,7 +307,7 @@ mod tests {
     fn weights_are_shares_to_a_part_of_the_largest() {
         let rows = Rows::from(vec![Row::weigh(&mut [(7, 0.3), (2, 0.5), (7, 0.1), (9, 0.0001), (4, 0.1)])]);
         for (column, share) in [(2, 0.5), (7, 0.4), (9, 0.0), (4, 0.1)] {
-            assert!((rows.share::<f32>(0, column) - share).abs() < 0.002);
+            assert!((rows.share::<f32>(0, column..column + 1) - share).abs() < 0.002);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::iter::repeat_n;
 use core::ops::Range;
 
 use glam::Vec3A;
@@ -18,8 +19,8 @@ const TOLERANCE: f32 = 1e-4;
 /// ...which reflectances up to 0.98 reach before, unless rounding hides it: next to a radiance a thousand times as large.
 const MOST_SWEEPS: usize = 300;
 
-/// What patches do with light and what they get straight from the lamps. Lists have an entry for each patch, one for the
-/// sky and one for the black.
+/// What patches do with light and what they get straight from the lamps. Lists have an entry for each patch, then those of
+/// the sky and one for the black.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PatchLight {
     /// Direct irradiance / pi.
@@ -39,7 +40,7 @@ impl PatchLight {
             direct: surfaces.direct_of_patches(direct),
             reflectance: surfaces.reflectances(lighting),
             emission: surfaces.emissions(lighting),
-            presence: surfaces.presence.iter().copied().chain([0.0; 2]).collect(),
+            presence: surfaces.presence.iter().copied().chain(repeat_n(0.0, surfaces.outside())).collect(),
         }
     }
 
@@ -56,8 +57,8 @@ impl PatchLight {
     }
 }
 
-/// The light of all bounces. Lists have an entry for each patch, one for the sky and one for the black; radiances are
-/// in cd/m2, irradiance is divided by pi.
+/// The light of all bounces. Lists have an entry for each patch, then those of the sky and one for the black; radiances
+/// are in cd/m2, irradiance is divided by pi.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solution {
     /// Radiance that leaves the patch.
@@ -79,7 +80,7 @@ pub struct Solution {
 impl Solution {
     /// Solves `b = e + rho (D + F b)` from any `start`, with `rows` of form factors and the direct light of the receivers.
     ///
-    /// The sky is a patch that emits and sees nothing; the black one is black.
+    /// The sky is of patches that emit and see nothing; the black one is black.
     pub fn new(
         surfaces: &Surfaces,
         rows: &Rows,
@@ -127,14 +128,14 @@ impl Solution {
     /// ones, would bring. What mirrors and glass absorb on the way counts as absorbed.
     pub fn energy_balance(&self, areas: impl ExactSizeIterator<Item = f32>, rows: &Rows) -> f32 {
         let (mut emitted, mut absorbed) = (0.0_f64, 0.0_f64);
-        let Some(&sky) = self.radiance.get(areas.len()) else { return 0.0 };
-        let end = areas.len() as u32;
+        let outside = areas.len() as u32..self.radiance.len() as u32;
+        let mut sky = self.radiance.clone();
+        sky[..areas.len()].fill(Vec3A::ZERO);
         for (i, area) in areas.enumerate() {
-            let (to_sky, to_black) = (rows.share::<Vec3A>(i, end), rows.share::<Vec3A>(i, end + 1));
-            let from_outside = self.direct[i] + self.emission[i] + sky * to_sky;
+            let from_outside = self.direct[i] + self.emission[i] + rows.mean(i, &sky);
             let kept = (self.direct[i] + self.received[i]) * (Vec3A::ONE - self.reflectance[i]);
             let area = area * self.presence[i];
-            let escaped = self.radiance[i] * (to_sky + to_black + rows.absorbed::<Vec3A>(i));
+            let escaped = self.radiance[i] * (rows.share::<Vec3A>(i, outside.clone()) + rows.absorbed::<Vec3A>(i));
             emitted += f64::from(area) * f64::from(from_outside.element_sum());
             absorbed += f64::from(area) * f64::from((kept + escaped).element_sum());
         }

@@ -2,8 +2,9 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::iter::repeat_n;
 
-use glam::Vec3A;
+use glam::{Vec3, Vec3A};
 
 use super::{Codes, Lighting, Rows, Solution};
 use crate::parallel::Workers;
@@ -14,7 +15,7 @@ pub const LARGEST_REFLECTANCE: f32 = 0.98;
 
 /// What surfaces do with light, in pieces: the columns of the rows that gather.
 ///
-/// Patches come first, the sky and the black are two more; then cells of 4 x 4 texels, cells of 2 x 2, and texels. A
+/// Patches come first, then those of the sky and the black; then cells of 4 x 4 texels, cells of 2 x 2, and texels. A
 /// texel that bounces no light belongs to the black.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surfaces {
@@ -38,6 +39,8 @@ pub struct Surfaces {
     pub cells: [Cells; 2],
     /// For each texel the patches between which it interpolates what they receive.
     pub around: Rows,
+    /// Radiance of each patch of the sky, times that of the lighting.
+    pub sky: Vec<Vec3>,
 }
 
 /// Texels in groups.
@@ -63,14 +66,19 @@ pub enum Size {
 }
 
 impl Surfaces {
-    /// The column of the sky.
+    /// The first column of the sky.
     pub fn sky(&self) -> u32 {
         self.areas.len() as u32
     }
 
     /// The column of all that neither reflects nor emits.
     pub fn black(&self) -> u32 {
-        self.sky() + 1
+        (self.areas.len() + self.sky.len()) as u32
+    }
+
+    /// How many columns the sky and the black have.
+    pub fn outside(&self) -> usize {
+        self.sky.len() + 1
     }
 
     /// The number of columns.
@@ -86,7 +94,7 @@ impl Surfaces {
     /// What they take, in bytes.
     pub fn bytes(&self) -> usize {
         let texels = 4 * (self.patch_of.len() + self.texel_areas.len() + 2 * self.patch_of.len());
-        let patches = 4 * (2 * self.areas.len() + self.materials.len() + self.bare.len());
+        let patches = 4 * (2 * self.areas.len() + self.materials.len() + self.bare.len() + 3 * self.sky.len());
         texels + patches + 2 * (self.reflectance.len() + self.emission.len()) + self.around.bytes()
     }
 
@@ -119,16 +127,19 @@ impl Surfaces {
         let lengths_fit = (self.materials.len(), self.texel_areas.len(), around) == (patches, texels, texels)
             && self.presence.len() == patches
             && (self.reflectance.len(), self.emission.len()) == (details, details);
+        let all = patches + self.outside();
         let indices_fit = all_below(&self.materials, materials)
             && all_below(&self.bare, patches)
-            && all_below(&self.patch_of, patches + 2)
-            && self.around.is_sound(patches + 2);
-        cells_fit && lengths_fit && indices_fit && patches + 4 * texels < u32::MAX as usize
+            && all_below(&self.patch_of, all)
+            && self.around.is_sound(all);
+        let is_light = |sky: &Vec3| sky.is_finite() && sky.min_element() >= 0.0;
+        let sky_fits = !self.sky.is_empty() && self.sky.iter().all(is_light);
+        cells_fit && lengths_fit && indices_fit && sky_fits && all + 4 * texels < u32::MAX as usize
     }
 
     #[inline]
     pub(super) fn first(&self, size: Size) -> u32 {
-        let after_patches = self.areas.len() as u32 + 2;
+        let after_patches = self.black() + 1;
         match size {
             Size::Patch => 0,
             Size::Four => after_patches,
@@ -140,13 +151,14 @@ impl Surfaces {
     /// Reflectance of all patches; zero for the sky and the black.
     pub fn reflectances(&self, lighting: &Lighting) -> Vec<Vec3A> {
         let of_patch = |patch: usize| self.reflectance(lighting, self.patch_of.len() + patch, patch);
-        (0..self.areas.len()).map(of_patch).chain([Vec3A::ZERO; 2]).collect()
+        (0..self.areas.len()).map(of_patch).chain(repeat_n(Vec3A::ZERO, self.outside())).collect()
     }
 
     /// Emitted radiance of all patches, the sky and the black, in cd/m2.
     pub fn emissions(&self, lighting: &Lighting) -> Vec<Vec3A> {
         let of_patch = |patch: usize| self.emission(lighting, self.patch_of.len() + patch, patch);
-        (0..self.areas.len()).map(of_patch).chain([lighting.sky.into(), Vec3A::ZERO]).collect()
+        let sky = self.sky.iter().map(|&radiance| Vec3A::from(radiance * lighting.sky));
+        (0..self.areas.len()).map(of_patch).chain(sky).chain([Vec3A::ZERO]).collect()
     }
 
     /// Patches that would reflect more than anything real does.
@@ -160,7 +172,7 @@ impl Surfaces {
 
     /// Direct irradiance / pi of all patches, the sky and the black, from that of the receivers.
     pub fn direct_of_patches(&self, direct: &[Vec3A]) -> Vec<Vec3A> {
-        let mut sums = vec![Vec3A::ZERO; self.areas.len() + 2];
+        let mut sums = vec![Vec3A::ZERO; self.areas.len() + self.outside()];
         for ((&patch, &area), &light) in self.patch_of.iter().zip(&self.texel_areas).zip(direct) {
             sums[patch as usize] += light * area;
         }
@@ -234,6 +246,6 @@ impl Surfaces {
 
     fn emission(&self, lighting: &Lighting, place: usize, patch: usize) -> Vec3A {
         let emissive = lighting.materials[self.materials[patch] as usize].emissive;
-        if emissive == glam::Vec3::ZERO { Vec3A::ZERO } else { Vec3A::from(emissive) * self.emission.rgb(place) }
+        if emissive == Vec3::ZERO { Vec3A::ZERO } else { Vec3A::from(emissive) * self.emission.rgb(place) }
     }
 }

@@ -190,3 +190,41 @@ fn lights_that_are_not_finite_are_left_out_and_named() {
     let told = &collected.warnings[0];
     assert!(told.starts_with("\"crushed spot\"") && told.contains("6 more") && told.contains("scale"), "{told}");
 }
+
+/// One sky counts, as a color or as an image, whose sun becomes a light without an entity.
+#[test]
+fn skies() {
+    use wgpu_types::{Extent3d, TextureDimension, TextureFormat};
+
+    let mut app = app();
+    let panorama = |index: u32| [if index == 40 { 1e5 } else { 1.0_f32 }, 1.0, 1.0, 1.0];
+    let data = (0..64 * 32).flat_map(panorama).flat_map(f32::to_le_bytes).collect();
+    let size = Extent3d { width: 64, height: 32, depth_or_array_layers: 1 };
+    let usage = bevy::asset::RenderAssetUsages::MAIN_WORLD;
+    let image = Image::new(size, TextureDimension::D2, data, TextureFormat::Rgba32Float, usage);
+    let image = app.world_mut().resource_mut::<Assets<Image>>().add(image);
+    app.world_mut().spawn((NotBaked, SkyLight { brightness: 7.0, ..default() }));
+    let sky = SkyLight { brightness: 2.0, color: Color::linear_rgb(1.0, 0.5, 0.25), ..default() };
+    let even = app.world_mut().spawn((Name::new("even"), sky.clone())).id();
+    let scene = collected(&mut app);
+    assert!(scene.scene.sky == Vec3::new(2.0, 1.0, 0.5) && scene.scene.sky_image.is_none());
+    app.world_mut().spawn((Name::new("panorama"), SkyLight { image: Some(image), ..sky.clone() }));
+    let warnings = collected(&mut app).warnings;
+    assert!(warnings.len() == 1 && warnings[0].contains("is a second sky"), "{warnings:?}");
+    app.world_mut().despawn(even);
+    let scene = collected(&mut app);
+    let image = scene.scene.sky_image.as_ref().unwrap();
+    assert_eq!((scene.scene.sky_radiance(Vec3::NEG_Y), image.radiance(Vec3::Y)), (Vec3::new(2.0, 1.0, 0.5), Vec3::ONE));
+    let [Light { name, source: LightSource::Directional(sun) }] = &scene.scene.lights[..] else { panic!("no sun") };
+    assert!(name == "panorama" && sun.illuminance.x > 10.0 && sun.illuminance.y == 0.0, "{sun:?}");
+    assert!(scene.lights.is_empty() && scene.warnings.is_empty());
+}
+
+/// A sky that is no light is named and left out.
+#[test]
+fn a_negative_sky_is_left_out() {
+    let mut app = app();
+    app.world_mut().spawn((Name::new("night"), SkyLight { brightness: -1.0, ..default() }));
+    let scene = collected(&mut app);
+    assert!(scene.scene.sky == Vec3::ZERO && scene.warnings[0].contains("\"night\" is a sky"), "{:?}", scene.warnings);
+}

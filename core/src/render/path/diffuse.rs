@@ -1,6 +1,6 @@
 //! A scene as its bake takes it: all that is reflected is reflected diffusely, but for mirrors.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::Optics;
 use crate::geometry::{Hit, Occluders, Ray};
@@ -60,7 +60,15 @@ impl<O: Occluders> Optics<Vec3> for Diffuse<'_, O> {
         self.0.world.sides[triangle as usize].both
     }
 
-    fn sky(&self, _: Vec3) -> Vec3 {
-        self.0.world.scene.sky
+    fn sky(&self, direction: Vec3) -> Vec3 {
+        self.0.world.scene.sky_radiance(direction)
+    }
+
+    fn toward_sky(&self, numbers: Vec2) -> Option<Vec3> {
+        self.0.world.scene.sky_image.as_ref()?.sample(numbers)
+    }
+
+    fn density_of_sky(&self, direction: Vec3) -> f32 {
+        self.0.world.scene.sky_image.as_ref().map_or(0.0, |image| image.density(direction))
     }
 }

@@ -1,9 +1,10 @@
 //! Triangles in lists, of any matter and with any bands.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::Optics;
 use crate::geometry::{Hit, Occluders, Ray, normal_and_area};
+use crate::light::SkyImage;
 use crate::scatter::{Colored, Matter};
 
 /// A material of facets.
@@ -15,7 +16,43 @@ pub struct Facet<S> {
     pub emission: S,
 }
 
-/// Flat triangles, opaque and one-sided but for glass; `sky` tells the radiance from a direction.
+/// What surrounds facets: a function of the direction, or a [`SkyImage`] where that is worth asking for light.
+pub trait Surroundings<S>: Sync {
+    /// See [`Optics::sky`].
+    fn radiance(&self, direction: Vec3) -> S;
+
+    /// See [`Optics::toward_sky`].
+    fn toward(&self, _numbers: Vec2) -> Option<Vec3> {
+        None
+    }
+
+    /// See [`Optics::density_of_sky`].
+    fn density(&self, _direction: Vec3) -> f32 {
+        0.0
+    }
+}
+
+impl<S, F: Fn(Vec3) -> S + Sync> Surroundings<S> for F {
+    fn radiance(&self, direction: Vec3) -> S {
+        self(direction)
+    }
+}
+
+impl Surroundings<Vec3> for SkyImage {
+    fn radiance(&self, direction: Vec3) -> Vec3 {
+        self.radiance(direction)
+    }
+
+    fn toward(&self, numbers: Vec2) -> Option<Vec3> {
+        self.sample(numbers)
+    }
+
+    fn density(&self, direction: Vec3) -> f32 {
+        self.density(direction)
+    }
+}
+
+/// Flat triangles, opaque and one-sided but for glass, and what surrounds them.
 pub struct Facets<'a, S, O, F> {
     /// Corners, counter-clockwise seen from the front.
     pub corners: &'a [[Vec3; 3]],
@@ -35,7 +72,7 @@ impl<S, O, F> Facets<'_, S, O, F> {
     }
 }
 
-impl<S: Colored, O: Occluders, F: Fn(Vec3) -> S + Sync> Optics<S> for Facets<'_, S, O, F> {
+impl<S: Colored, O: Occluders, F: Surroundings<S>> Optics<S> for Facets<'_, S, O, F> {
     type Scatter = Matter<S>;
 
     fn corners(&self) -> &[[Vec3; 3]] {
@@ -68,6 +105,14 @@ impl<S: Colored, O: Occluders, F: Fn(Vec3) -> S + Sync> Optics<S> for Facets<'_,
     }
 
     fn sky(&self, direction: Vec3) -> S {
-        (self.sky)(direction)
+        self.sky.radiance(direction)
+    }
+
+    fn toward_sky(&self, numbers: Vec2) -> Option<Vec3> {
+        self.sky.toward(numbers)
+    }
+
+    fn density_of_sky(&self, direction: Vec3) -> f32 {
+        self.sky.density(direction)
     }
 }

@@ -1,6 +1,6 @@
 //! What paths of light meet.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::geometry::{Hit, Ray};
 use crate::light::PlaneMirror;
@@ -41,4 +41,15 @@ pub trait Optics<S: Colored>: Sync {
 
     /// Radiance in cd/m2 that arrives from outside of the scene in a direction that leads there, of any length.
     fn sky(&self, direction: Vec3) -> S;
+
+    /// A direction of length 1 to ask for light of the surroundings, by two numbers in `[0, 1)`: nothing where they are
+    /// even enough to be met by chance.
+    fn toward_sky(&self, _numbers: Vec2) -> Option<Vec3> {
+        None
+    }
+
+    /// With which density [`Optics::toward_sky`] gives a direction, in 1/sr.
+    fn density_of_sky(&self, _direction: Vec3) -> f32 {
+        0.0
+    }
 }

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::emitters::Emitters;
 use super::numbers::Numbers;
@@ -36,6 +36,7 @@ pub struct PathTracer<S, O> {
     pub(super) optics: O,
     lamps: Vec<PathLamp<S>>,
     emitters: Emitters,
+    sky_is_asked: bool,
 }
 
 /// A place on a surface, lit from the side of its normal.
@@ -94,8 +95,8 @@ impl<'a, O: Occluders> PathTracer<Vec3, Diffuse<'a, O>> {
 impl<S: Colored, O: Optics<S>> PathTracer<S, O> {
     /// Of surfaces, surroundings and lamps.
     pub fn new(optics: O, lamps: Vec<PathLamp<S>>) -> Self {
-        let emitters = Emitters::new(&optics);
-        Self { optics, lamps, emitters }
+        let (emitters, sky_is_asked) = (Emitters::new(&optics), optics.toward_sky(Vec2::splat(0.5)).is_some());
+        Self { optics, lamps, emitters, sky_is_asked }
     }
 
     /// Irradiance / pi that a point of a triangle receives on the side of a normal of length 1, from so many values of
@@ -152,10 +153,10 @@ impl<S: Colored, O: Optics<S>> PathTracer<S, O> {
 
     /// Radiance that leaves a surface, without what it emits.
     fn scattered<T: Scatter<S>>(&self, at: &Vertex<T>, numbers: &mut Numbers) -> S {
-        let mut sum = self.of_lamps(at, numbers) + self.of_emitters(at, numbers);
+        let mut sum = self.asked_for(at, numbers);
         let Some((mut step, mut next)) = self.go_on(at, S::splat(1.0), numbers, &mut sum) else { return sum };
         for bounce in 1.. {
-            sum += step * (self.of_lamps(&next, numbers) + self.of_emitters(&next, numbers));
+            sum += step * self.asked_for(&next, numbers);
             let sure = if bounce < SURE { 1.0 } else { step.max_abs().min(MOST_SURE) };
             if numbers.next().1 >= sure {
                 break;
@@ -164,6 +165,11 @@ impl<S: Colored, O: Optics<S>> PathTracer<S, O> {
             (step, next) = further;
         }
         sum
+    }
+
+    /// Light from a lamp, a point of what emits, and a direction of the sky.
+    fn asked_for<T: Scatter<S>>(&self, at: &Vertex<T>, numbers: &mut Numbers) -> S {
+        self.of_lamps(at, numbers) + self.of_emitters(at, numbers) + self.of_sky(at, numbers)
     }
 
     /// The next place of a path and what light from there is multiplied by; adds what is emitted there, or the sky.
@@ -180,17 +186,15 @@ impl<S: Colored, O: Optics<S>> PathTracer<S, O> {
         let (hit, passed) = self.optics.nearest(&at.leave(direction), numbers.seed());
         weight = weight * passed;
         let Some(hit) = hit else {
-            *sum += weight * self.optics.sky(direction);
+            let share = share_of_both(scattered.density, || self.optics.density_of_sky(direction));
+            *sum += weight * self.optics.sky(direction) * share;
             return None;
         };
         let next = self.vertex(&hit, direction);
         if next.departure.z < 0.0 {
             weight = weight * next.scatter.transmittance(hit.distance);
         }
-        let share = match scattered.density {
-            Density::Dirac => 1.0,
-            Density::PerSteradian(density) => density / (density + self.density_of_emitters(&hit, at.point, direction)),
-        };
+        let share = share_of_both(scattered.density, || self.density_of_emitters(&hit, at.point, direction));
         *sum += weight * self.emitted(&hit) * share;
         Some((weight, next))
     }
@@ -223,6 +227,21 @@ impl<S: Colored, O: Optics<S>> PathTracer<S, O> {
         light * passes * (arrival.z.abs() / (density + at.scatter.density(arrival, at.departure)))
     }
 
+    /// Light from a direction of the sky, weighed against that which the surface would have met by itself.
+    fn of_sky<T: Scatter<S>>(&self, at: &Vertex<T>, numbers: &mut Numbers) -> S {
+        let Some(direction) = self.sky_is_asked.then(|| self.optics.toward_sky(numbers.next().0.truncate())).flatten()
+        else {
+            return S::default();
+        };
+        let arrival = at.to_local(direction);
+        let light = self.optics.sky(direction) * at.scatter.evaluate(arrival, at.departure);
+        if light.max_abs() == 0.0 {
+            return S::default();
+        }
+        let density = self.optics.density_of_sky(direction) + at.scatter.density(arrival, at.departure);
+        light * self.optics.visibility(&at.leave(direction)) * (arrival.z.abs() / density)
+    }
+
     /// Light from one lamp, chosen by what all of them would give with nothing between.
     fn of_lamps<T: Scatter<S>>(&self, at: &Vertex<T>, numbers: &mut Numbers) -> S {
         if self.lamps.is_empty() || at.departure.z <= 0.0 {
@@ -250,5 +269,14 @@ impl<S: Colored, O: Optics<S>> PathTracer<S, O> {
                 None => self.optics.visibility(&at.leave_for(&ray)),
                 Some(mirror) => self.optics.shown_by(mirror, &Ray { end: ray.end, ..at.leave(ray.direction) }),
             }
+    }
+}
+
+/// The share of light that a surface meets by itself, where it could have been asked for with another density: the balance
+/// heuristic. A mirror meets all of it.
+fn share_of_both(density: Density, other: impl FnOnce() -> f32) -> f32 {
+    match density {
+        Density::Dirac => 1.0,
+        Density::PerSteradian(density) => density / (density + other()),
     }
 }
