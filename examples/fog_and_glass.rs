@@ -113,7 +113,6 @@ fn quad(corner: Vec3, across: Vec3, up: Vec3, [left, right]: [PremultipliedRgba;
     ]
 }
 
-/// A column of marble.
 /// Panes of tinted glass that stand one behind the other, each turned a little more.
 fn add_glass(triangles: &mut Vec<Triangle>) {
     const TINTS: [[f32; 3]; 4] = [[0.02, 0.35, 0.3], [0.6, 0.3, 0.02], [0.45, 0.05, 0.2], [0.05, 0.15, 0.5]];
@@ -126,6 +125,7 @@ fn add_glass(triangles: &mut Vec<Triangle>) {
     }
 }
 
+/// A column of marble.
 fn add_column(triangles: &mut Vec<Triangle>, foot: Vec3) {
     const SIDES: usize = 24;
     let out = |k: usize| {

@@ -135,6 +135,17 @@ fn paths_of_light_agree_with_the_bake() {
     assert!(error["p50"].as_f64().is_some_and(|p50| p50 > 0.0 && p50 < 0.2), "{error}");
 }
 
+/// Before the bake, not after it.
+#[test]
+fn a_missing_folder_for_a_picture_is_named() {
+    let folder = TestFolder::new("nowhere");
+    let picture = folder.path().join("pictures").join("truth.png");
+    let out = folder.path().join("out");
+    let render = ["--render", picture.to_str().expect("it has a name in Unicode")];
+    let error = bake(&folder.write("room.glb", &Glb::room().bytes()), &out, &render).expect_err("there is no folder");
+    assert!(error.to_string().contains("pictures") && !out.exists(), "{error}");
+}
+
 /// A room without lamps under skies: one color, a panorama that is the same, and what is kept of it twice as bright.
 #[test]
 fn skies_light_rooms() {
@@ -182,6 +193,7 @@ fn report_is_complete(report: &Value) {
     for key in numbers.split_whitespace() {
         assert!(report[key].is_number(), "{key}: {}", report[key]);
     }
+    assert_eq!(report["unwrapped"], 2);
     assert!(report["version"].is_string() && report["settings"].is_object() && report["warnings"].is_array());
     assert_eq!(report["scene"], "room.glb");
     assert_eq!((&report["triangles"], &report["surfaces"], &report["texels"]), (&4.into(), &2.into(), &4096.into()));

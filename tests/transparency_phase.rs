@@ -131,8 +131,29 @@ fn depths_that_are_no_numbers_do_no_harm() {
 #[test]
 fn nothing_is_sorted_where_nothing_is_transparent() {
     let mut phase = Phase::new();
-    phase.app.sub_app_mut(RenderApp).world_mut().run_schedule(Render);
-    assert!(phase.phases().is_empty());
+    phase.add_at(1, -2.0);
+    assert_eq!(phase.order(), [1]);
+    phase.remove(1);
+    assert_eq!(phase.order(), []);
+    phase.add_at(2, -2.0);
+    phase.add_at(3, -5.0);
+    assert_eq!(phase.order(), [3, 2]);
+}
+
+/// What is moved far away by a bias, or is as far away, leaves the order of what is near alone.
+#[test]
+fn far_and_biased_things_freeze_nothing() {
+    let mut phase = Phase::new();
+    let at =
+        |z: f32, depth_bias: f32| TransparentSortingInfo3d::Sorted { mesh_center: Vec3::new(0.0, 0.0, z), depth_bias };
+    phase.add(1, at(-1.0, 1e8));
+    phase.add_at(2, -1e5);
+    phase.add_at(3, -2.0);
+    phase.add_at(4, -2.01);
+    assert_eq!(phase.order(), [2, 4, 3, 1]);
+    phase.remove(4);
+    phase.add_at(4, -1.99);
+    assert_eq!(phase.order(), [2, 3, 4, 1]);
 }
 
 /// Apps that do without materials that transmit have no such phase.

@@ -188,3 +188,39 @@ fn a_pane_shows_its_picture() {
     assert_eq!(pane.hit(&beside), None);
     assert_eq!(pane.hit(&Ray { direction: Vec3::X, ..beside }), None, "seen edge-on");
 }
+
+/// Seen from high above, where the fog is nothing, and from far below, where it is everything: never another value than the
+/// integral.
+#[test]
+fn height_fog_from_any_height() {
+    for scale in [0.8, 2.5] {
+        let fog = HeightFog { scale, ..height_fog() };
+        for eye in [3.0, 50.0, 72.0, 80.0, 90.0, 230.0, 300.0, 1e4_f32] {
+            let down = Ray { origin: vec3(0.0, eye, 0.0), direction: vec3(0.0, -1.0, 0.0), end: f32::INFINITY };
+            let ground = 0.2;
+            let above = 1.0 - ((ground - eye) / scale).exp();
+            let expected = fog.extinction * scale * above;
+            let depth = fog.optical_depth(&down, 0.0, eye - ground);
+            assert!((depth / expected - 1.0).abs() < 2e-3, "{scale} {eye}: {depth} {expected}");
+            let up = Ray { origin: vec3(0.0, ground, 0.0), direction: Vec3::Y, end: f32::INFINITY };
+            let back = fog.optical_depth(&up, 0.0, eye - ground);
+            assert!((back / expected - 1.0).abs() < 2e-3, "{scale} {eye}: {back} {expected}");
+            assert_eq!(fog.optical_depth(&down, 0.0, f32::INFINITY), f32::INFINITY);
+            assert_eq!(fog.optical_depth(&down, eye + 1e3, eye + 1e3), 0.0);
+        }
+    }
+}
+
+#[test]
+fn smoke_that_is_none_is_refused() {
+    let densities = [1.0; 8];
+    let smoke = |low: Vec3, high: Vec3, densities: &[f32]| Smoke::new([low, high], [2; 3], densities, GRAY).err();
+    assert_eq!(smoke(LOW, HIGH, &densities), None);
+    assert_eq!(smoke(HIGH, LOW, &densities), Some(GridError::Box));
+    assert_eq!(smoke(LOW, Vec3::splat(f32::INFINITY), &densities), Some(GridError::Box));
+    for wrong in [-1.0, f32::NAN, f32::INFINITY] {
+        let mut densities = densities;
+        densities[3] = wrong;
+        assert_eq!(smoke(LOW, HIGH, &densities), Some(GridError::Extinction { entry: 3 }));
+    }
+}

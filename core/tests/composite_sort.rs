@@ -1,6 +1,6 @@
 //! Orders of drawing: true, stable, and calm.
 
-use radiosity::composite::{Draw, DrawKey, resort, sort};
+use radiosity::composite::{Draw, DrawKey, Tolerance, resort, sort};
 
 /// A number in `[0, 1)` for each pair of numbers.
 fn chance(seed: u32, k: u32) -> f32 {
@@ -41,7 +41,7 @@ fn sorted_as_by_the_standard_library() {
             sort(&mut draws, &mut scratch);
             assert_eq!(indices(&draws), indices(&expected), "{count} of kind {kind}");
             assert!((0..).zip(&draws).all(|(rank, draw)| draw.rank == rank));
-            resort(&mut again, &mut scratch, 0.0);
+            resort(&mut again, &mut scratch, Tolerance::NONE);
             sort(&mut in_place, &mut []);
             assert_eq!([&again, &in_place], [&draws; 2]);
         }
@@ -58,7 +58,7 @@ fn frame_by_frame() {
             let depth = -100.0 * chance(1, draw.index) + 3.0 * (0.02 * frame as f32 * chance(2, draw.index)).sin();
             draw.key = DrawKey::new(0, 0, depth);
         }
-        resort(&mut order, &mut [], 0.0);
+        resort(&mut order, &mut [], Tolerance::NONE);
         assert!(order.is_sorted_by_key(|draw| draw.key));
     }
 }
@@ -77,9 +77,9 @@ fn equal_depths_do_not_flicker() {
             draw.key = DrawKey::new(0, 0, depth + 1e-5 * (chance(frame, k) - 0.5));
         }
         let mut hasty = order.clone();
-        resort(&mut hasty, &mut [], 0.0);
+        resort(&mut hasty, &mut [], Tolerance::NONE);
         changed += usize::from(indices(&hasty) != calm);
-        resort(&mut order, &mut [], 1e-4);
+        resort(&mut order, &mut [], within(1e-4));
         assert_eq!(indices(&order), calm, "frame {frame}");
     }
     assert!(changed > 400, "without a tolerance they flicker: {changed}");
@@ -97,7 +97,7 @@ fn no_pair_is_wrong_by_more_than_the_tolerance() {
                 draw.key = DrawKey::new(0, 0, -chance(4, draw.index) + 0.008 * chance(frame + 9, draw.index));
             }
             let before: Vec<(u32, u32)> = order.windows(2).map(|pair| (pair[0].index, pair[1].index)).collect();
-            resort(&mut order, &mut [], tolerance);
+            resort(&mut order, &mut [], within(tolerance));
             changes += order.windows(2).filter(|pair| !before.contains(&(pair[0].index, pair[1].index))).count();
             let mut farthest = f32::INFINITY;
             for draw in order.iter().rev() {
@@ -119,8 +119,36 @@ fn things_come_and_go() {
         order.retain(|draw| draw.index % 50 != frame);
         let index = 1000 + frame;
         order.push(Draw { key: DrawKey::new(0, 0, -100.0 * chance(6, frame)), rank: u32::MAX, index });
-        resort(&mut order, &mut [], 1e-6);
+        resort(&mut order, &mut [], within(1e-6));
         assert!(order.is_sorted_by_key(|draw| draw.key));
         assert!(order.iter().any(|draw| draw.index == index));
+    }
+}
+
+fn within(least: f32) -> Tolerance {
+    Tolerance { least, share: 0.0 }
+}
+
+/// What is far away, or lies there by a bias, makes nothing near equal; and what rounding makes of far things stays in order.
+#[test]
+fn far_things_leave_near_ones_alone() {
+    let tolerance = Tolerance { least: 0.0, share: 4.0 * f32::EPSILON };
+    let draw = |index: u32, depth: f32| Draw { key: DrawKey::new(0, 0, depth), rank: index, index };
+    let mut order =
+        [-1e8, 1e8, -2.0, -1.0].into_iter().zip(0..).map(|(depth, index)| draw(index, depth)).collect::<Vec<_>>();
+    resort(&mut order, &mut [], tolerance);
+    order.iter_mut().filter(|draw| draw.index == 3).for_each(|draw| draw.key = DrawKey::new(0, 0, -2.00001));
+    resort(&mut order, &mut [], tolerance);
+    let indices: Vec<u32> = order.iter().map(|draw| draw.index).collect();
+    assert_eq!(indices, [0, 3, 2, 1]);
+    // Two at 1e5 m tremble by a rounding of their depth.
+    let mut far = [draw(0, -1e5), draw(1, -1e5)];
+    for frame in 0..20_u32 {
+        for draw in &mut far {
+            let off = if (frame + draw.index) % 2 == 0 { 0.0078125 } else { 0.0 };
+            draw.key = DrawKey::new(0, 0, -1e5 + off);
+        }
+        resort(&mut far, &mut [], tolerance);
+        assert_eq!(far.map(|draw| draw.index), [0, 1], "frame {frame}");
     }
 }

@@ -146,6 +146,8 @@ fn errors_name_the_culprit() {
     assert_eq!(Piece::new(&[Vec3::ZERO, Vec3::X, Vec3::splat(f32::NAN)], 0), Err(SplitError::Degenerate));
     let bent = [Vec3::ZERO, Vec3::X, vec3(1.0, 1.0, 0.5), Vec3::Y];
     assert!(matches!(Piece::new(&bent, 0), Err(SplitError::Bent { .. })));
+    let dart = [[0.0, 0.0], [2.0, 0.0], [0.5, 0.5], [0.0, 2.0]].map(|[x, y]| Vec3::new(x, y, 1.0));
+    assert_eq!(Piece::new(&dart, 0), Err(SplitError::Concave { corner: 2 }));
     assert_eq!(Piece::new(&[square; 5].concat(), 0), Err(SplitError::Corners));
 
     let mut tree = BspTree::<2>::default();

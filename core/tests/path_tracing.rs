@@ -353,6 +353,33 @@ fn lamps_give_what_their_formulas_say() {
     lit(sources.iter().map(lamp).collect());
 }
 
+/// Half of a bulb in a wall, and of a sun at the horizon: the half above is all there is to see, and gives all the light.
+#[test]
+fn lamps_at_the_horizon() {
+    let bulb =
+        PointLight { position: Vec3::new(0.5, 0.0, 0.03), intensity: Vec3::ONE, range: f32::INFINITY, radius: 0.2 };
+    let direction = Vec3::new(0.999, 0.0, -0.04).normalize();
+    let sun = DirectionalLight { direction, illuminance: Vec3::splat(30.0), angular_diameter: 0.2 };
+    for source in [LightSource::Point(bulb), LightSource::Directional(sun)] {
+        let mut room: Room<f32> = Room::default();
+        room.add(square(0.0, true), lambert(0.0), 0.0);
+        let lamp = PathLamp { light: DirectLight::from(&source), strength: 1.0, mirror: None };
+        let expected = lamp.light.irradiance(Vec3::ZERO, Vec3::Z).x / PI;
+        assert!(expected > 0.02, "{expected}");
+        let lit = |room: &Room<f32>| {
+            let tracer = PathTracer::new(room.under(|_| 0.0), vec![lamp.clone()]);
+            tracer.received(&hit(0, Vec2::new(0.0, 0.5)), Vec3::Z, 256, 9)
+        };
+        assert_within("at the horizon", lit(&room), expected);
+        // A screen before the half of it on one side.
+        let screen = [[0.1, 0.0, 0.0], [0.1, 1.0, 0.0], [0.1, 1.0, 1.0], [0.1, 0.0, 1.0]].map(Vec3::from);
+        let away = if matches!(source, LightSource::Point(_)) { 1.0 } else { -1.0 };
+        room.add(screen.map(|corner| corner * Vec3::new(away, 1.0, 1.0)), lambert(0.0), 0.0);
+        let half = lit(&room);
+        assert!((half.mean / (0.5 * expected) - 1.0).abs() < 0.05, "{half:?} {expected}");
+    }
+}
+
 /// The sky may differ from direction to direction: a lid of half the sky that is bright.
 #[test]
 fn half_a_sky_is_half_the_light() {

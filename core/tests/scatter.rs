@@ -174,6 +174,38 @@ fn closed_albedos() {
     assert_eq!(Mirror { reflectance: 0.8_f32 }.sample(-up, Vec3::ZERO), None);
 }
 
+/// Glass reflects as often as Fresnel says, from both sides, and the rest goes through with all its light.
+#[test]
+fn glass_chooses_by_fresnel() {
+    let glass = Glass { index: 1.5, absorption: 0.0_f32 };
+    for cos in [1.0_f32, 0.7, 0.3, 0.1, -0.9, -0.8, -0.5] {
+        let expected = fresnel(cos.abs(), if cos > 0.0 { 1.0 / 1.5 } else { 1.5 }).0;
+        let departure = direction(cos, 0.3);
+        let arrivals: Vec<_> = (0..SAMPLES).filter_map(|index| glass.sample(departure, numbers(index))).collect();
+        assert!(arrivals.len() == SAMPLES as usize && arrivals.iter().all(|scattered| scattered.weight == 1.0));
+        let reflected = arrivals.iter().filter(|scattered| (scattered.arrival.z > 0.0) == (cos > 0.0)).count();
+        let share = reflected as f32 / SAMPLES as f32;
+        let error = (expected * (1.0 - expected) / SAMPLES as f32).sqrt();
+        assert!((share - expected).abs() <= 4.0 * error, "{cos}: {share} {expected}");
+    }
+}
+
+/// A mirror under a veil: its share of the light goes into one direction, the rest into all.
+#[test]
+fn mixtures_may_have_a_dirac_part() {
+    let surface = Mixture { first: Mirror { reflectance: 0.9_f32 }, second: Lambert { reflectance: 0.4 }, share: 0.25 };
+    let departure = departures()[1];
+    let (mut mirrored, mut sum) = (0, 0.0);
+    for scattered in (0..SAMPLES).filter_map(|index| surface.sample(departure, numbers(index))) {
+        mirrored += u32::from(scattered.density == Density::Dirac);
+        sum += f64::from(scattered.weight) / f64::from(SAMPLES);
+    }
+    assert!((mirrored as f32 / SAMPLES as f32 - 0.25).abs() < 0.006, "{mirrored}");
+    assert!((sum - (0.25 * 0.9 + 0.75 * 0.4)).abs() < 3e-3, "{sum}");
+    let arrival = direction(0.5, 2.0);
+    assert!((surface.evaluate(arrival, departure) - 0.75 * 0.4 / PI).abs() < 1e-6);
+}
+
 /// Fresnel at the normal, at Brewster's angle and at the critical angle; Snell's law; the way back has the same share.
 #[test]
 fn glass_obeys_fresnel_and_snell() {

@@ -80,6 +80,9 @@ try {
   console.log(await evaluate("document.getElementById('state').textContent"));
   console.log(`mean color of patches ${patches.map(Math.round)}, of lightmaps ${usual.map(Math.round)}, warm ${warm.map(Math.round)}`);
   writeFileSync(picture, Buffer.from(data, "base64"));
+  // Far above what slices should take: other programs run here too.
+  const medians = (await evaluate("document.getElementById('state').textContent")).match(/median [\d.]+/g).map((text) => Number(text.slice(7)));
+  if (medians.length < 2 || Math.max(...medians) > 50) throw new Error(`slices take ${medians} ms`);
   const isAlike = patches.every((band, k) => Math.abs(band - usual[k]) < 8);
   const isWarmer = bluish(warm) < 0.8 * bluish(usual) && bluish(warmPatches) < 0.8 * bluish(patches);
   if (!(Math.min(...usual) > 10 && isAlike && isWarmer)) throw new Error("the picture is wrong");

@@ -118,6 +118,7 @@ pub fn read_scene(path: &Path) -> Result<Scene, CliError> {
 fn bake_to_folder(args: &Args, interrupted: &AtomicBool) -> Result<String, CliError> {
     let start = Instant::now();
     keep_source(args)?;
+    find_folder(args)?;
     let mut document = match &args.scene {
         Some(path) => Document::read(path)?,
         None => export::cornell_document()?,
@@ -159,6 +160,19 @@ fn keep_source(args: &Args) -> Result<(), CliError> {
             "{} would be overwritten by what is baked of it; choose another folder by --out",
             scene.display()
         ))),
+        _ => Ok(()),
+    }
+}
+
+/// The folder of the picture must be there before the bake, not be missing after it.
+fn find_folder(args: &Args) -> Result<(), CliError> {
+    let Some(file) = &args.render else { return Ok(()) };
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    match folder {
+        Some(folder) if !folder.is_dir() => {
+            let (folder, file) = (folder.display(), file.display());
+            Err(CliError::new(format!("--render {file}: there is no folder {folder}; make it or choose another file")))
+        }
         _ => Ok(()),
     }
 }

@@ -69,8 +69,8 @@ impl<'a> Pictures<'a> {
     /// Writes what paths of light show, the same beside the preview, and the difference of both.
     pub fn render(&self, file: &Path, samples: u32, ev100: f32) -> Result<(), CliError> {
         let Self { scene, bake, camera, width, .. } = *self;
-        let (size, threads) = ([width, HEIGHT], bake.report.threads);
-        let picture = self.follow(|progress| path_traced(scene, &camera, size, samples, threads, progress))?;
+        let (size, work) = ([width, HEIGHT], (bake.report.threads, bake.report.seed as u32));
+        let picture = self.follow(|progress| path_traced(scene, &camera, size, samples, work, progress))?;
         let radiance = self.draw(|progress| lightmapped(scene, bake, &camera, size, progress))?;
         let Preview { rgb, .. } = self.draw(|progress| preview(scene, bake, &camera, size, Some(ev100), progress))?;
         let truth = picture.rgb(ev100);

@@ -17,6 +17,7 @@ pub(super) struct ReportFile<'a> {
     seconds: f64,
     triangles: usize,
     surfaces: usize,
+    unwrapped: usize,
     texels: usize,
     valid_texels: usize,
     invalid_texels: usize,
@@ -69,6 +70,7 @@ struct EstimatedError {
 #[derive(Serialize)]
 struct TrueError {
     points: usize,
+    left_out: usize,
     paths: u32,
     rms: f32,
     rms_without_worst: f32,
@@ -80,8 +82,8 @@ struct TrueError {
 
 impl From<Truth> for TrueError {
     fn from(truth: Truth) -> Self {
-        let Truth { points, paths, rms, rms_without_worst, p50, p95, bias, standard_error } = truth;
-        Self { points, paths, rms, rms_without_worst, p50, p95, bias, standard_error }
+        let Truth { points, left_out, paths, rms, rms_without_worst, p50, p95, bias, standard_error } = truth;
+        Self { points, left_out, paths, rms, rms_without_worst, p50, p95, bias, standard_error }
     }
 }
 
@@ -96,9 +98,9 @@ struct Seams {
 }
 
 impl<'a> ReportFile<'a> {
-    /// The same with what paths of light say.
+    /// The same with what paths of light say, if they said anything.
     pub fn with_truth(self, truth: Option<Truth>) -> Self {
-        Self { true_error: truth.map(Into::into), ..self }
+        Self { true_error: truth.filter(|truth| truth.points > 0).map(Into::into), ..self }
     }
 
     /// Puts together what the bake and what the command line know.
@@ -122,6 +124,7 @@ impl<'a> ReportFile<'a> {
             seconds,
             triangles: report.triangles,
             surfaces: report.surfaces,
+            unwrapped: report.unwrapped,
             texels: report.texels,
             valid_texels: report.valid_texels,
             invalid_texels: report.invalid_texels,

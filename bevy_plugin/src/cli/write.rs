@@ -88,6 +88,11 @@ impl Written<'_> {
         }
         let pictures = self.pictures(staging.interrupted);
         let truth = pictures.truth(points)?;
+        if truth.points == 0 {
+            let warning = "--reference found no point to look at: all of them lie inside of geometry; ask for more";
+            eprintln!("warning: {warning}");
+            self.bake.report.warnings.push(warning.into());
+        }
         if self.args.views {
             self.bake.true_errors = pictures.true_errors(points)?;
             let picture = self.pictures(staging.interrupted).false_color(FalseColor::Truth)?;

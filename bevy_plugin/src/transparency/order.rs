@@ -5,14 +5,14 @@ use bevy::prelude::*;
 use bevy::render::render_phase::{SortedRenderPhase, ViewSortedRenderPhases};
 use bevy::render::sync_world::MainEntity;
 use bevy::render::view::{ExtractedView, RetainedViewEntity};
-use radiosity::composite::{Draw, ViewDepth, resort};
+use radiosity::composite::{Draw, Tolerance, ViewDepth, resort};
 
 use super::TransparentDepth;
 use super::extract::Moved;
 use super::phase::DepthSorted;
 use super::place::Places;
 
-/// Depths count as equal that differ by less than this share of the largest coordinate in play: what rounding of
+/// Depths count as equal that differ by less than this share of them and of the place of the camera: what rounding of
 /// single-precision transforms can do.
 const EQUAL: f32 = 4.0 * f32::EPSILON;
 
@@ -105,10 +105,11 @@ impl<I: DepthSorted> LastOrder<I> {
         });
         self.draws.extend(keyed);
         self.scratch.resize(self.draws.len(), self.draws[0]);
-        let tolerance = tolerance(view, &self.draws);
+        let least = EQUAL * view.world_from_view.translation().abs().max_element();
+        let tolerance = Tolerance { least, share: EQUAL };
         if let Some(panes) = &places.panes.0 {
             let piece = |index| panes.pieces.get(&phase.items.get_index(index as usize)?.0.1).copied();
-            panes.deal(&mut self.draws, piece, view, 2.0 * tolerance);
+            panes.deal(&mut self.draws, piece, view, tolerance);
         }
         resort(&mut self.draws, &mut self.scratch, tolerance);
         rearrange(phase, &self.draws);
@@ -148,12 +149,6 @@ fn view_depth(view: &ExtractedView, places: &Places) -> Option<ViewDepth> {
         TransparentDepth::Along(direction) => Some(ViewDepth::Axis { axis: *direction }),
         TransparentDepth::AsQueued => None,
     }
-}
-
-fn tolerance(view: &ExtractedView, draws: &[Draw]) -> f32 {
-    let depths = draws.iter().map(|draw| draw.key.depth().abs()).filter(|depth| depth.is_finite());
-    let farthest = depths.fold(0.0, f32::max);
-    EQUAL * (farthest + view.world_from_view.translation().abs().max_element())
 }
 
 /// Moves each item to the place of its draw, and tells it the depth that took it there.

@@ -6,7 +6,7 @@
 
 mod rounds;
 
-use radiosity::composite::{Draw, DrawKey, resort, sort};
+use radiosity::composite::{Draw, DrawKey, Tolerance, resort, sort};
 use rounds::best;
 
 const COUNTS: [u32; 4] = [1_000, 10_000, 100_000, 1_000_000];
@@ -25,8 +25,8 @@ fn main() {
                 [
                     &mut |draws: &mut Vec<Draw>| sort(draws, &mut scratch),
                     &mut |draws: &mut Vec<Draw>| sort(draws, &mut []),
-                    &mut |draws: &mut Vec<Draw>| resort(draws, &mut other, 0.0),
-                    &mut |draws: &mut Vec<Draw>| resort(draws, &mut another, 1e-4),
+                    &mut |draws: &mut Vec<Draw>| resort(draws, &mut other, Tolerance::NONE),
+                    &mut |draws: &mut Vec<Draw>| resort(draws, &mut another, Tolerance { least: 1e-4, share: 0.0 }),
                     &mut |draws: &mut Vec<Draw>| radsort::sort_by_key(draws, |draw| draw.key.depth()),
                     &mut |draws: &mut Vec<Draw>| draws.sort_by_key(|draw| draw.key),
                     &mut |draws: &mut Vec<Draw>| draws.sort_unstable_by_key(|draw| draw.key),

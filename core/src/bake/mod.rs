@@ -31,7 +31,7 @@ use crate::geometry::{Logged, Occluders, RayLog, hash, tree};
 use crate::light::Lamps;
 use crate::lightmap::{
     Blocks, Direct, DirectError, DirectTexel, Gather, Layout, LightmapImage, LightmapUv, Nodes, Placement, Reflectors,
-    SeamTexel, layout,
+    SeamTexel, UvOrigin, layout,
 };
 use crate::parallel::Workers;
 use crate::progress::{Cancelled, Progress, Stage};
@@ -158,6 +158,7 @@ fn run(
     let report = Report {
         triangles: world.blockers,
         surfaces: layout.placements.iter().flatten().count(),
+        unwrapped: layout.uvs.iter().flatten().filter(|uv| uv.origin == UvOrigin::Unwrapped).count(),
         texels: layout.images.iter().map(|[width, height]| (width * height) as usize).sum(),
         patches: parts.patches.list.len(),
         images: layout.images.len(),

@@ -12,6 +12,8 @@ pub struct Report {
     pub triangles: usize,
     /// Surfaces with a lightmap.
     pub surfaces: usize,
+    /// Meshes that got new lightmap coordinates, since theirs could not be used.
+    pub unwrapped: usize,
     /// Texels of all images.
     pub texels: usize,
     /// Texels that a surface covers and whose light was computed.

@@ -90,14 +90,16 @@ pub struct HeightFog {
 impl Medium for HeightFog {
     /// `integral of s exp(-(h + v t) / H) dt = s exp(-h / H) d (1 - exp(-x)) / x` with `x = v d / H`.
     fn optical_depth(&self, ray: &Ray, from: f32, to: f32) -> f32 {
-        let start = (ray.origin + ray.direction * from - self.base).dot(self.up) / self.scale;
+        let height = (ray.origin - self.base).dot(self.up) / self.scale;
         let slope = ray.direction.dot(self.up) / self.scale;
-        let extinction = self.extinction * exp(-start);
         // Upwards even an endless way has a finite depth; along the ground it has none.
-        if slope == 0.0 {
-            return depth_of(extinction, ray.direction.length() * (to - from));
+        if slope == 0.0 || from >= to {
+            return depth_of(self.extinction * exp(-height), ray.direction.length() * (to - from));
         }
-        depth_of(extinction, ray.direction.length() / slope * -exp_m1(-slope * (to - from)))
+        // From its lower end on, where the fog is thickest: nothing overflows but what is endless.
+        let lower = if slope > 0.0 { from } else { to };
+        let way = ray.direction.length() / slope.abs() * -exp_m1(-slope.abs() * (to - from));
+        depth_of(self.extinction * exp(-height - slope * lower), way)
     }
 
     fn color(&self) -> Vec3 {
@@ -118,6 +120,13 @@ pub struct Smoke<'a> {
 /// A grid that cannot be interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GridError {
+    /// The box has no size along an axis, or its corners are not finite.
+    Box,
+    /// An entry is negative or not finite.
+    Extinction {
+        /// Which one.
+        entry: usize,
+    },
     /// There are less than two entries along an axis.
     Thin {
         /// Entries along x, y and z.
@@ -135,6 +144,8 @@ pub enum GridError {
 impl fmt::Display for GridError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
+            Self::Box => write!(f, "the box of a grid is not finite or empty; give it a low and a high corner"),
+            Self::Extinction { entry } => write!(f, "entry {entry} of a grid is negative or not finite; mend it"),
             Self::Thin { counts: [x, y, z] } => {
                 write!(f, "a grid of {x} x {y} x {z} entries; give it at least two along each axis")
             }
@@ -154,7 +165,7 @@ impl<'a> Smoke<'a> {
     ///
     /// # Errors
     ///
-    /// Where there are not as many as the counts tell, or less than two along an axis.
+    /// See [`GridError`].
     pub fn new(
         [low, high]: [Vec3; 2],
         counts: [usize; 3],
@@ -167,6 +178,12 @@ impl<'a> Smoke<'a> {
         let entries = counts.iter().fold(1_usize, |product, &count| product.saturating_mul(count));
         if entries != extinctions.len() {
             return Err(GridError::Length { entries, length: extinctions.len() });
+        }
+        if !((high - low).is_finite() && low.cmplt(high).all()) {
+            return Err(GridError::Box);
+        }
+        if let Some(entry) = extinctions.iter().position(|extinction| !(extinction.is_finite() && *extinction >= 0.0)) {
+            return Err(GridError::Extinction { entry });
         }
         Ok(Self { low, size: high - low, counts, extinctions, color })
     }
@@ -189,7 +206,7 @@ impl<'a> Smoke<'a> {
             self.extinctions[start] * (1.0 - share.x) + self.extinctions[start + 1] * share.x
         };
         let sheet = |z| row(y, z) * (1.0 - share.y) + row(y + 1, z) * share.y;
-        (sheet(z) * (1.0 - share.z) + sheet(z + 1) * share.z).max(0.0)
+        sheet(z) * (1.0 - share.z) + sheet(z + 1) * share.z
     }
 }
 

@@ -6,6 +6,9 @@ use super::{AreaLight, Cone, DirectionalLight, Emission, LightSource, PointLight
 use crate::geometry::{cone_direction, tangents};
 use crate::math;
 
+/// Rays to a ball or a disc of which one is chosen.
+const CANDIDATES: usize = 8;
+
 /// A light prepared for shadow rays.
 #[derive(Clone, Debug)]
 pub enum DirectLight {
@@ -73,17 +76,31 @@ impl DirectLight {
         }
     }
 
-    /// A shadow ray as [`DirectLight::shadow_ray`] gives it, and the irradiance in lux that it stands for alone: its mean
-    /// over the unit square is [`DirectLight::irradiance`].
-    pub fn shadow_sample(&self, square: Vec2, point: Vec3, normal: Vec3) -> (ShadowRay, Vec3) {
-        match self {
-            Self::Area(light) => {
-                let target = light.point(square);
-                let ray = ShadowRay { direction: target.position - point, end: 1.0, weight: 1.0 };
-                (ray, light.irradiance_from(&target, point, normal))
-            }
-            _ => (self.shadow_ray(square, point, normal), self.irradiance(point, normal)),
+    /// A shadow ray by three numbers in `[0, 1)`, and the irradiance in lux that it stands for alone: its mean over them is
+    /// [`DirectLight::irradiance`].
+    ///
+    /// Balls and discs send one of a few rays, chosen by their weights, so that of one that is half below the horizon the
+    /// half above stands for all.
+    pub fn shadow_sample(&self, numbers: Vec3, point: Vec3, normal: Vec3) -> (ShadowRay, Vec3) {
+        let square = numbers.truncate();
+        if let Self::Area(light) = self {
+            let target = light.point(square);
+            let ray = ShadowRay { direction: target.position - point, end: 1.0, weight: 1.0 };
+            return (ray, light.irradiance_from(&target, point, normal));
         }
+        if self.is_sharp() {
+            return (self.shadow_ray(square, point, normal), self.irradiance(point, normal));
+        }
+        let rays: [ShadowRay; CANDIDATES] = core::array::from_fn(|k| {
+            let lattice = Vec2::new(k as f32, (3 * k) as f32) / CANDIDATES as f32;
+            self.shadow_ray((square + lattice).fract(), point, normal)
+        });
+        let mut rest = numbers.z * rays.iter().map(|ray| ray.weight).sum::<f32>();
+        let chosen = rays.iter().find(|ray| {
+            rest -= ray.weight;
+            rest < 0.0
+        });
+        chosen.map_or((rays[0], Vec3::ZERO), |ray| (*ray, self.irradiance(point, normal)))
     }
 
     /// The shadow ray from a lit point to the point of the light that belongs to a point of the unit square.

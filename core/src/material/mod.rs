@@ -40,7 +40,8 @@ pub struct Material {
     pub transmission: f32,
     /// What glass takes from light on its way, in 1/m, not negative: `exp(-absorption distance)` is left.
     pub absorption: Vec3,
-    /// The way through a sheet of glass that is modeled without thickness, in meters. Closed bodies have their own.
+    /// The way through a sheet of glass that is modeled without thickness, in meters, whatever the angle: light that meets
+    /// the sheet aslant is absorbed no more. Closed bodies have their own, and there the angle counts.
     pub thickness: f32,
     /// Whether the side that the winding turns away reflects and emits too. It blocks light in either case.
     pub double_sided: bool,

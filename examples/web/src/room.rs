@@ -10,7 +10,7 @@ use glam::Vec3;
 use program::r#box::{Fineness, screens, surfaces};
 use radiosity::composite::RasterError;
 use radiosity::form_factor::{Exchanges, Facet, Screen, SightRays, facet_to_facet, pairs};
-use radiosity::solve::{GaussSeidelSweep, Reciprocal, System};
+use radiosity::solve::{Decay, GaussSeidelSweep, Reciprocal, System};
 
 use crate::view::{color, see};
 
@@ -48,6 +48,8 @@ pub struct Room {
     unshot: Vec<Vec3>,
     stage: Stage,
     sweep: GaussSeidelSweep<Vec3>,
+    /// How light dies out, known from the first sweep on; it asks for all rows.
+    decay: Option<Decay<Vec3>>,
     lamp: Vec3,
     /// For each pixel the patch that it shows.
     seen: Vec<u32>,
@@ -76,6 +78,7 @@ impl Room {
             unshot: exitance.clone(),
             stage: Stage::Done,
             sweep: GaussSeidelSweep::default(),
+            decay: None,
             lamp: Vec3::ONE,
             seen: shown(&facets, side)?,
             pixels: vec![255; 4 * (side * side) as usize],
@@ -172,7 +175,9 @@ impl Room {
     /// A few rows of a sweep of Gauss and Seidel.
     fn gather(&mut self, most: usize) {
         let rows = Reciprocal { exchanges: &self.exchanges, inverse_areas: &self.inverse_areas };
-        let system = System::new(&self.exitance, &self.reflectance, &rows);
+        let (exitance, reflectance) = (&self.exitance[..], &self.reflectance[..]);
+        let decay = *self.decay.get_or_insert_with(|| System::new(exitance, reflectance, &rows).decay);
+        let system = System { exitance, reflectance, form_factors: &rows, decay };
         let count = most.div_ceil(self.facets.len());
         if let Some(accuracy) = self.sweep.step(&system, &mut self.radiosity, count)
             && accuracy.is_within(TOLERANCE)

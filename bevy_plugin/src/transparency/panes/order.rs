@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 use bevy::render::sync_world::MainEntityHashMap;
 use bevy::render::view::ExtractedView;
-use radiosity::composite::{BspTree, Draw, DrawKey, Viewpoint};
+use radiosity::composite::{BspTree, Draw, DrawKey, Tolerance, Viewpoint};
 
 use super::outline::Outline;
 
@@ -18,9 +18,15 @@ pub struct CutPanes {
 }
 
 impl CutPanes {
-    /// Puts the pieces among `draws` nearer that cover others which would come after them: nearer than those by `gap`.
+    /// Puts the pieces among `draws` nearer that cover others which would come after them: nearer than what counts as equal.
     /// All else keeps its depth, so that what is no pane stays before and behind as much as it can.
-    pub fn deal(&self, draws: &mut [Draw], piece: impl Fn(u32) -> Option<usize>, view: &ExtractedView, gap: f32) {
+    pub fn deal(
+        &self,
+        draws: &mut [Draw],
+        piece: impl Fn(u32) -> Option<usize>,
+        view: &ExtractedView,
+        equal: Tolerance,
+    ) {
         let mut draw_of = vec![None; self.tree.len()];
         for (at, draw) in draws.iter().enumerate() {
             let draw_of = piece(draw.index).and_then(|number| draw_of.get_mut(number));
@@ -33,7 +39,7 @@ impl CutPanes {
         for number in self.tree.order(viewpoint(view)) {
             let Some(draw) = draw_of[number].and_then(|at| draws.get_mut(at)) else { continue };
             for (before, other) in &dealt {
-                let nearer = before.depth() + gap;
+                let nearer = equal.end(equal.end(before.depth()));
                 let is_wrong = before.group() == draw.key.group() && nearer > draw.key.depth();
                 if is_wrong && outlines[*other].overlaps(&outlines[number]) {
                     draw.key = draw.key.at(nearer);

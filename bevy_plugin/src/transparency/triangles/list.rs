@@ -6,7 +6,7 @@ use bevy::asset::RenderAssetUsages;
 use bevy::math::Affine3A;
 use bevy::mesh::Indices;
 use bevy::prelude::*;
-use radiosity::composite::{Draw, DrawKey, ViewDepth, resort};
+use radiosity::composite::{Draw, DrawKey, Tolerance, ViewDepth, resort};
 
 use super::super::triangle_list::{IndexWidth, TriangleList};
 
@@ -77,7 +77,7 @@ impl Order {
             draw.key = DrawKey::new(0, 0, depth.of_point(centroid));
         }
         let mut scratch = self.0.clone();
-        resort(&mut self.0, &mut scratch, 0.0);
+        resort(&mut self.0, &mut scratch, Tolerance::NONE);
         self
     }
 

@@ -45,6 +45,27 @@ pub struct Draw {
     pub index: u32,
 }
 
+/// By how much depths may differ and count as equal.
+///
+/// What rounding does to a depth goes with it: what is far away, or moved there by a bias, must not make equal what is near.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tolerance {
+    /// Of any two, in m; not negative.
+    pub least: f32,
+    /// More than that by this share of the depth of the farther one, in `[0, 1)`.
+    pub share: f32,
+}
+
+impl Tolerance {
+    /// Only equal depths are equal.
+    pub const NONE: Self = Self { least: 0.0, share: 0.0 };
+
+    /// The nearest depth that counts as equal to one. It grows with that one.
+    pub fn end(&self, depth: f32) -> f32 {
+        depth + (self.least + self.share * depth.abs())
+    }
+}
+
 /// Sorts things to be drawn: lower layers first, then lower priorities, then from far to near. Equal ones stay in the
 /// order in which they stand. Ranks are then the places in the new order.
 ///
@@ -68,15 +89,15 @@ pub fn sort(draws: &mut [Draw], scratch: &mut [Draw]) {
 /// Sorts things that stand in the order of the frame before, ranks and all, with new keys: in linear time where few have
 /// changed places, as [`sort`] otherwise.
 ///
-/// Things whose depths differ by no more than `tolerance` keep the order that they had, unless a third one forces them
-/// apart; so that things at the same depth do not flicker when rounding, or a camera that trembles, favors now one and now
-/// the other. All others are in true order, without exception. New things are appended, with the rank `u32::MAX`; others may be
-/// left out.
-pub fn resort(draws: &mut [Draw], scratch: &mut [Draw], tolerance: f32) {
+/// Things whose depths differ by no more than the tolerance of the farther one keep the order that they had, unless a third
+/// one forces them apart; so that things at the same depth do not flicker when rounding, or a camera that trembles, favors
+/// now one and now the other. That holds among 32 of them, and among any number that lie apart from all others. All others
+/// are in true order, without exception. New things are appended, with the rank `u32::MAX`; others may be left out.
+pub fn resort(draws: &mut [Draw], scratch: &mut [Draw], tolerance: Tolerance) {
     if !insertion_sort(draws, PATIENCE * draws.len()) {
         radix_sort(draws, scratch);
     }
-    if tolerance > 0.0 {
+    if tolerance != Tolerance::NONE {
         draws.chunk_by_mut(|a, b| a.key.group() == b.key.group()).for_each(|group| keep_order(group, tolerance));
     }
     renumber(draws);
@@ -106,18 +127,19 @@ fn insertion_sort(draws: &mut [Draw], mut moves: usize) -> bool {
 ///
 /// Of what is left, all that is farther by more than the tolerance than others must come before them: a semiorder. Those
 /// within the tolerance of the farthest may come next, and of them the one comes that was first before.
-fn keep_order(group: &mut [Draw], tolerance: f32) {
+fn keep_order(group: &mut [Draw], tolerance: Tolerance) {
     let mut next = 0;
     let mut end = 0;
     while next < group.len() {
-        let limit = group[next].key.depth() + tolerance;
+        let limit = tolerance.end(group[next].key.depth());
         if group.get(next + 1).is_none_or(|draw| draw.key.depth() > limit) {
             next += 1;
             continue;
         }
         end = end.max(next + 1);
         end += group[end..].iter().take_while(|draw| draw.key.depth() <= limit).count();
-        let is_apart = group.get(end).is_none_or(|draw| draw.key.depth() > group[end - 1].key.depth() + tolerance);
+        let last = tolerance.end(group[end - 1].key.depth());
+        let is_apart = group.get(end).is_none_or(|draw| draw.key.depth() > last);
         if is_apart {
             group[next..end].sort_unstable_by_key(|draw| draw.rank);
             next = end;

@@ -61,6 +61,11 @@ pub enum SplitError {
         /// How far outside, in the unit of the coordinates.
         distance: f32,
     },
+    /// The outline turns inwards.
+    Concave {
+        /// At this corner.
+        corner: usize,
+    },
     /// More corners than [`CORNERS`].
     Corners,
     /// More pieces than there is room for.
@@ -77,6 +82,7 @@ impl fmt::Display for SplitError {
             Self::Bent { corner, distance } => {
                 write!(f, "corner {corner} lies {distance} outside the plane of its polygon; cut it into triangles")
             }
+            Self::Concave { corner } => write!(f, "a polygon is not convex at corner {corner}; cut it into triangles"),
             Self::Corners => write!(f, "a polygon of more than {CORNERS} corners; cut it into smaller ones"),
             Self::Full { pieces } => write!(f, "more than {pieces} pieces; give room for more, or insert less"),
         }
@@ -94,19 +100,33 @@ pub(super) enum Side {
     Both,
 }
 
+/// A corner at which an outline turns inwards by more than rounding does.
+fn dent(corners: &[Vec3], plane: &Plane) -> Option<usize> {
+    let count = corners.len();
+    (0..count).find(|&k| {
+        let [before, here, after] = [k + count - 1, k, k + 1].map(|corner| corners[corner % count]);
+        let [arrives, leaves] = [here - before, after - here];
+        let turn = arrives.cross(leaves).dot(plane.normal);
+        turn < -plane.thickness * (arrives.length() + leaves.length())
+    })
+}
+
 impl Piece {
     /// A convex polygon from its corners in order.
     ///
     /// # Errors
     ///
-    /// Where it has no area, more than [`CORNERS`] corners, or is not flat.
+    /// Where it has no area, more than [`CORNERS`] corners, or is not flat or not convex.
     pub fn new(corners: &[Vec3], source: u32) -> Result<Self, SplitError> {
         let corners = Vec::from_slice(corners).map_err(|_| SplitError::Corners)?;
         let plane = Plane::through(&corners).ok_or(SplitError::Degenerate)?;
         let distances = || corners.iter().map(|&corner| plane.height(corner).abs()).enumerate();
         match distances().find(|&(_, distance)| distance > 16.0 * plane.thickness) {
             Some((corner, distance)) => Err(SplitError::Bent { corner, distance }),
-            None => Ok(Self { corners, source, plane }),
+            None => match dent(&corners, &plane) {
+                Some(corner) => Err(SplitError::Concave { corner }),
+                None => Ok(Self { corners, source, plane }),
+            },
         }
     }
 

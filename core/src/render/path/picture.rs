@@ -26,7 +26,7 @@ pub struct PathPicture<S> {
 }
 
 /// A scene as its bake takes it, seen by a camera, with at least so many paths for each pixel. What blocks no light is not
-/// seen. The result does not depend on the number of threads, 0 for one on each core.
+/// seen. The result depends on the seed, and not on the number of threads, 0 for one on each core.
 ///
 /// # Errors
 ///
@@ -36,13 +36,13 @@ pub fn path_traced(
     camera: &Camera,
     size: [u32; 2],
     paths: u32,
-    threads: usize,
+    (threads, seed): (usize, u32),
     progress: &Progress,
 ) -> Result<PathPicture<Vec3>, Cancelled> {
     progress.enter(Stage::Paths);
     let world = World::new(scene);
     let tracer = PathTracer::diffuse(&world, tree(world.corners[..world.blockers].to_vec()));
-    let (workers, mut picture) = (Workers::new(threads), PathPicture::new(size, 0));
+    let (workers, mut picture) = (Workers::new(threads), PathPicture::new(size, seed));
     let steps = paths.div_ceil(PATHS);
     for step in 0..steps {
         progress.enter_group(step as usize, steps as usize);

@@ -140,6 +140,9 @@ impl<S: Colored, O: Optics<S>> PathTracer<S, O> {
         let (front, scatter) = self.optics.surface(hit);
         let turned = !hit.front && self.optics.both_sides(hit.triangle);
         let corners = &self.optics.corners()[hit.triangle as usize];
+        // Where a smooth normal looks away from a side that is seen, the flat one counts.
+        let looks_away = (front.dot(direction) > 0.0) == hit.front;
+        let front = normal_and_area(corners).filter(|_| looks_away).map_or(front, |(flat, _)| flat);
         let normal = if turned { -front } else { front };
         let (point, lift, departure) = (hit.interpolate(*corners), lift(corners), Vec3::ZERO);
         let at = Vertex { point, normal, lift, scatter, departure };
@@ -257,7 +260,7 @@ impl<S: Colored, O: Optics<S>> PathTracer<S, O> {
             rest < 0.0
         });
         let Some((lamp, level)) = chosen else { return S::default() };
-        let (ray, irradiance) = lamp.light.shadow_sample(numbers.truncate(), at.point, at.normal);
+        let (ray, irradiance) = lamp.light.shadow_sample(numbers, at.point, at.normal);
         let arrival = at.to_local(ray.direction.normalize_or_zero());
         let scattered = at.scatter.evaluate(arrival, at.departure) * (irradiance.x * whole / level);
         if scattered.max_abs() == 0.0 {

@@ -25,8 +25,10 @@ const MOST_BACKS: f32 = 0.1;
 /// plus a tenth of its mean, as [`EstimatedError`](crate::bake::EstimatedError) has them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Truth {
-    /// Points that were looked at; those inside of geometry are left out.
+    /// Points that were looked at; where there is none, all else means nothing.
     pub points: usize,
+    /// Points that were left out, because they lie inside of geometry.
+    pub left_out: usize,
     /// Paths for each of them.
     pub paths: u32,
     /// Root mean square, without the noise of the paths.
@@ -78,8 +80,9 @@ pub fn truth(scene: &Scene, bake: &Bake, points: usize, progress: &Progress) -> 
         Some(Point { baked, mean: estimate.mean, standard_error: estimate.standard_error() })
     };
     let workers = Workers::new(bake.report.threads);
-    let points: Vec<Option<Point>> = workers.map(points, 4, progress, |range| range.map(point).collect())?;
-    Ok(errors(&points.into_iter().flatten().collect::<Vec<_>>()))
+    let found: Vec<Option<Point>> = workers.map(points, 4, progress, |range| range.map(point).collect())?;
+    let found: Vec<Point> = found.into_iter().flatten().collect();
+    Ok(Truth { left_out: points - found.len(), ..errors(&found) })
 }
 
 /// The share of what a point sees that are backs of one-sided surfaces.
@@ -141,6 +144,7 @@ fn errors(points: &[Point]) -> Truth {
     let signed = points.iter().map(|point| (point.baked - point.mean).element_sum() / 3.0).sum::<f32>() / count;
     Truth {
         points: points.len(),
+        left_out: 0,
         paths: VALUES * PATHS,
         rms: math::sqrt((sum / count - noise).max(0.0)),
         rms_without_worst: math::sqrt(((sum - worst) / (count - 1.0).max(1.0) - noise).max(0.0)),
