@@ -242,4 +242,9 @@ fn lights_stand_at_equal_distances() {
     assert_eq!(five.len(), 5);
     is_even(&five);
     assert!(five.iter().all(|at| at.length() > 3.5), "they followed the curve");
+    let other = app.world_mut().spawn((Transform::default(), ChildOf(curve))).id();
+    app.world_mut().entity_mut(curve).remove::<LightsAlong>();
+    app.update();
+    assert!(places(&mut app).is_empty(), "lights go with what put them there");
+    assert!(app.world().get_entity(other).is_ok(), "other children stay");
 }

@@ -7,7 +7,7 @@ use bevy::math::cubic_splines::{
 use bevy::prelude::*;
 use bevy_radiosity::convert::cubics::*;
 use bevy_radiosity::prelude::SplineCurve;
-use radiosity::spline::{Cubic, Hermite};
+use radiosity::spline::{Cubic, Hermite, OwnedBSpline, uniform_knots};
 
 fn points(count: usize) -> Vec<Vec3> {
     let coordinate = |i: usize, k: usize| ((i * 7 + k * 13) % 17) as f32 * 0.37 - 2.1 + 0.01 * (i * k) as f32;
@@ -113,5 +113,14 @@ fn b_splines() {
     let nurbs = component.nurbs().unwrap();
     assert_same("a component", 6.0, |t| curve.position(t), |t| nurbs.curve().point(t));
     assert!(to_b_spline(&core.inserted(2.5).unwrap()).is_none());
+    // Distances of many knots differ by more than their share of rounding.
+    for count in [200, 1000, 5000] {
+        let mut knots = vec![0.0; count + 4];
+        uniform_knots(&mut knots, 3);
+        let many = OwnedBSpline::new(knots.clone(), 3, points(count)).unwrap();
+        assert_eq!(to_b_spline(&many).unwrap().control_points, points(count));
+        knots[count / 2] += 0.01 * (knots[1] - knots[0]);
+        assert!(to_b_spline(&OwnedBSpline::new(knots, 3, points(count)).unwrap()).is_none());
+    }
     assert!(from_b_spline(&CubicBSpline::new(points(3))).is_err());
 }

@@ -6,6 +6,7 @@
 mod splines;
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+use std::time::{Duration, Instant};
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use radiosity::math::Real;
@@ -250,6 +251,76 @@ fn curves_through_points_and_near_to_them() {
     assert_eq!(few, SplineError::Singular { index: 2 });
 }
 
+/// Points at what is no parameter of the curve are refused, the rounding of one is not.
+#[test]
+fn parameters_of_points_lie_in_the_domain() {
+    let knots = [1.0, 1.0, 2.0, 3.0, 3.0];
+    let vector = KnotVector::new(&knots, 1).unwrap();
+    let (points, mut scratch, mut found) = ([0.0, 5.0, 2.0], [0.0; 9], [0.0; 3]);
+    for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.9, 3.1] {
+        let parameters = [1.0, wrong, 3.0];
+        let interpolated = interpolate(vector, &parameters, &points, &mut scratch, &mut found);
+        let fitted = fit(vector, &parameters, &points, &mut scratch, &mut found);
+        for error in [interpolated.unwrap_err(), fitted.unwrap_err()] {
+            let SplineError::Parameter { parameter, domain: [1.0, 3.0] } = error else { panic!("{error}") };
+            assert_eq!(parameter.to_bits(), wrong.to_bits());
+        }
+    }
+    let rounded = [1.0 - f64::EPSILON, 2.0, 3.0 + 2.0 * f64::EPSILON];
+    interpolate(vector, &rounded, &points, &mut scratch, &mut found).unwrap();
+    assert_eq!(found, points);
+    assert!(fit(vector, &rounded, &points, &mut scratch, &mut found).unwrap() < 1e-15);
+}
+
+/// A degree is refused before anything is counted with it.
+#[test]
+fn degrees_beyond_all_bounds() {
+    let points = vec![DVec3::X, DVec3::Y, DVec3::Z];
+    for degree in [MAX_DEGREE + 1, usize::MAX / 4, usize::MAX] {
+        let error = SplineError::Degree { degree };
+        assert_eq!(KnotVector::new(&[0.0, 1.0], degree), Err(error));
+        assert_eq!(averaged_knots(&[0.0, 1.0], degree, &mut [0.0; 4]), Err(error));
+        assert_eq!(OwnedBSpline::from_beziers(&[0.0, 1.0], degree, points.clone()), Err(error));
+        assert_eq!(OwnedBSpline::through(&points, degree), Err(error));
+        assert_eq!(OwnedSurface::through(&points, 3, [degree, 1]), Err(error));
+        let curve = BSpline::new(KnotVector::bezier(2).unwrap(), &points).unwrap();
+        assert_eq!(loft(&[curve, curve], degree), Err(error));
+        clamped_knots(&mut [0.0; 4], degree);
+        uniform_knots(&mut [0.0; 4], degree);
+    }
+}
+
+/// Control points that are all the same are measured at once, where halves of halves would take a second for each.
+#[test]
+fn a_curve_without_length_takes_no_time() {
+    let start = Instant::now();
+    for x in (0..20).map(f64::from) {
+        for tolerance in [0.0, 1e-300, 1e-9] {
+            assert_eq!(arc_length(&Cubic::from_bezier([DVec3::splat(x); 4]), [0.0, 1.0], tolerance), 0.0);
+            assert_eq!(arc_length(&Bezier::new(&[DVec2::splat(x); 4]).unwrap(), [0.0, 1.0], tolerance), 0.0);
+            assert_eq!(arc_length(&Bezier::new(&[DVec2::splat(x); 6]).unwrap(), [0.0, 1.0], tolerance), 0.0);
+        }
+    }
+    assert!(start.elapsed() < Duration::from_secs(5));
+}
+
+/// A distance and its negative lead there and back.
+#[test]
+fn parameters_at_negative_distances() {
+    assert!((parameter_at(&CIRCLE, PI, -1.0, 1e-12) - (PI - 1.0)).abs() < 1e-11);
+    assert_eq!(parameter_at(&CIRCLE, 1.0, -1.5, 1e-12), 0.0);
+    assert_eq!(parameter_at(&CIRCLE, 1.0, f64::NEG_INFINITY, 1e-12), 0.0);
+    let mut random = Random(28);
+    let owned = OwnedBSpline::through(&random.points(9), 3).unwrap();
+    let curve = owned.curve();
+    let [start, end] = curve.knots().domain();
+    for _ in 0..40 {
+        let [from, to] = [random.between(start, end), random.between(start, end)];
+        let distance = arc_length(&curve, [from, to], 1e-12);
+        assert!((parameter_at(&curve, from, distance, 1e-11) - to).abs() < 1e-8, "from {from} to {to}");
+    }
+}
+
 /// Closed forms: the circle, a parabola, a line; and the inverse.
 #[test]
 fn arc_lengths() {
@@ -313,7 +384,7 @@ fn travel_has_speed_one() {
     let around = Travel::<_, 8>::new(CIRCLE, 1e-12);
     assert!((around.at(PI).point + DVec2::X).length() < 1e-11);
     assert!((around.at(PI).second - DVec2::X).length() < 1e-11);
-    let _ = (Travel::<_, 0>::new(CIRCLE, 1e-3).at(1.0), Travel::<_, 1>::new(CIRCLE, 1e-3).at(1.0));
+    assert!((Travel::<_, 2>::new(CIRCLE, 1e-12).length() - TAU).abs() < 1e-11);
 }
 
 /// Not farther than any of many samples, and at right angles to the curve or at an end.

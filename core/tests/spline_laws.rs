@@ -44,6 +44,43 @@ fn basis_functions_are_a_partition_of_unity() {
     }
 }
 
+/// Whatever the span, the basis functions are those of a piece: the one to which its knot belongs.
+#[test]
+fn every_span_stands_for_a_piece() {
+    let all = [-1.0, 0.0, 0.5, 0.5, 2.0, 2.0, 3.0];
+    let knots = KnotVector::new(&all, 1).unwrap();
+    let (pieces, t) = ([1, 1, 3, 3, 3, 3, 3], 0.7);
+    for span in (0..=7).chain([usize::MAX]) {
+        let piece = *pieces.get(span).unwrap_or(&3);
+        assert_eq!(knots.basis(span, t), knots.basis(piece, t), "span {span}");
+        let mut rows = [[[0.0; MAX_DEGREE + 1]; 2]; 2];
+        let [of_span, of_piece] = &mut rows;
+        knots.basis_derivatives(span, t, of_span);
+        knots.basis_derivatives(piece, t, of_piece);
+        assert_eq!(rows[0], rows[1]);
+        assert!(rows[0].iter().flatten().all(|value| value.is_finite()));
+        let curve = BSpline::new(knots, &[1.0, 5.0, 2.0, 3.0, 4.0]).unwrap();
+        assert_eq!(curve.blossom(span, &[t]), curve.blossom(piece, &[t]));
+    }
+}
+
+/// Less knots may take more than the weights have: an error, no curve with weights below 0.
+#[test]
+fn weights_stay_positive_without_a_knot() {
+    let weights = [1.0, 0.01, 0.01, 0.5];
+    let points = |x: f64| weights.map(|weight| Homogeneous::new(DVec3::X * x, weight)).to_vec();
+    let knots = vec![0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0];
+    let curve = OwnedBSpline::new(knots.clone(), 2, points(1.0)).unwrap();
+    let error = curve.removed(0.5).unwrap_err();
+    assert!(matches!(error, SplineError::Weight { index: 1, weight } if weight < 0.0), "{error}");
+    let line = vec![0.0, 0.0, 1.0, 1.0];
+    let rows = [points(1.0), points(2.0)].concat();
+    let surface = OwnedSurface::new([knots, line], [2, 1], rows).unwrap();
+    for (surface, direction) in [(surface.clone(), Direction::U), (surface.transposed(), Direction::V)] {
+        assert_eq!(surface.without_knot(direction, 0.5).unwrap_err(), error);
+    }
+}
+
 /// A map of the control points is a map of the curve.
 #[test]
 fn curves_are_affinely_invariant() {

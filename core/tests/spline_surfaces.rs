@@ -67,6 +67,16 @@ fn half_circle(middle: f64, radius: f64, full: bool) -> Nurbs3 {
     revolution(&BSpline::new(knots(all, 2), &points).unwrap(), Z, TAU).unwrap()
 }
 
+/// Three by three control points, of degree 0 in a direction or in both.
+fn steps(degrees: [usize; 2]) -> Nurbs3 {
+    let all = degrees.map(|degree| {
+        let mut knots = vec![0.0; 3 + degree + 1];
+        clamped_knots(&mut knots, degree);
+        knots
+    });
+    OwnedSurface::new(all, degrees, (0..9).map(|k| Homogeneous::new(anywhere(k), 1.0 + k as f64)).collect()).unwrap()
+}
+
 fn sphere() -> Nurbs3 {
     half_circle(0.0, 2.0, false)
 }
@@ -409,8 +419,7 @@ fn extrusion_ruled_loft_and_coons() {
         let [bottom, top] = [curve.point(t), other.point(2.0 + 4.0 * t)];
         assert!((at(t, 0.0) - bottom).length() < 1e-12 && (at(t, 1.0) - top).length() < 1e-12);
         assert!((at(0.0, t) - left.point(t)).length() < 1e-12 && (at(1.0, t) - right.point(t)).length() < 1e-12);
-        let bilinear = 0.25 * (points[0] + points[4] + other_points[0] + other_points[3]) * 0.0
-            + (points[0].lerp(points[4], t)).lerp(other_points[0].lerp(other_points[3], t), 0.5);
+        let bilinear = points[0].lerp(points[4], t).lerp(other_points[0].lerp(other_points[3], t), 0.5);
         let blended = bottom.lerp(top, 0.5) + left.point(0.5).lerp(right.point(0.5), t) - bilinear;
         assert!((at(t, 0.5) - blended).length() < 1e-12);
     }
@@ -550,7 +559,7 @@ fn errors_have_numbers() {
 /// Whatever the parameter, the point or the ray, nothing panics.
 #[test]
 fn any_number_gives_a_result() {
-    let surfaces = [rational(), sphere(), torus()];
+    let surfaces = [rational(), sphere(), torus(), steps([0, 0]), steps([0, 1]), steps([2, 0])];
     for surface in surfaces.iter().map(OwnedSurface::surface) {
         for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1e300, 1e300, 5.0] {
             let _ = (surface.point(x, 0.5), surface.at(0.5, x), surface.normal(x, x), surface.curvature(x, 0.1));

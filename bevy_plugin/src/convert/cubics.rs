@@ -122,11 +122,19 @@ pub fn from_b_spline<P: Point>(spline: &CubicBSpline<P>) -> Result<OwnedBSpline<
 /// A B-spline of Bevy from an open one of the core; none where that is not cubic or its knots not at equal distances.
 pub fn to_b_spline<P: Point>(spline: &OwnedBSpline<P>) -> Option<CubicBSpline<P>> {
     let curve = spline.curve();
-    let knots = curve.knots().knots();
-    let step = knots[1] - knots[0];
-    let is_uniform = knots.windows(2).all(|pair| ((pair[1] - pair[0]) - step).abs() <= 1e-5 * step);
-    let fits = curve.degree() == 3 && !curve.is_closed() && is_uniform;
+    let fits = curve.degree() == 3 && !curve.is_closed() && is_uniform(curve.knots().knots());
     fits.then(|| CubicBSpline::new(curve.points().iter().copied()))
+}
+
+/// Whether at least two knots stand at equal distances, but for the rounding of each, which is the larger a share of
+/// those distances the more knots there are.
+fn is_uniform(knots: &[f32]) -> bool {
+    let [start, end] = [knots[0], knots[knots.len() - 1]].map(f64::from);
+    let step = (end - start) / (knots.len() - 1) as f64;
+    let rounding = 4.0 * f64::from(f32::EPSILON) * start.abs().max(end.abs());
+    // Far from 0, rounding may be as large as a step; equal knots are never uniform.
+    let slack = rounding.min(0.25 * step);
+    knots.iter().enumerate().all(|(i, &knot)| (f64::from(knot) - (start + i as f64 * step)).abs() <= slack)
 }
 
 /// A NURBS curve of the core from one of Bevy, whose control points are multiplied with their weights already.

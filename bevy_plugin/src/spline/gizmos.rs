@@ -71,9 +71,13 @@ fn draw(gizmos: &mut Gizmos<SplineGizmos>, transform: &GlobalTransform, lines: V
 
 impl SplineGizmo {
     fn of_curve(&self, curve: &SplineCurve, path: &SplinePath) -> Vec<Line> {
-        let mut lines = vec![(curve.points.clone(), self.polygon)];
+        let (nurbs, mut polygon) = (curve.nurbs(), curve.points.clone());
+        if nurbs.as_ref().is_ok_and(|nurbs| nurbs.curve().is_closed()) {
+            polygon.extend(curve.points.first());
+        }
+        let mut lines = vec![(polygon, self.polygon)];
         lines.extend(curve.points.iter().flat_map(|&point| self.cross(point, self.polygon)));
-        if let Ok(nurbs) = curve.nurbs() {
+        if let Ok(nurbs) = &nurbs {
             let nurbs = nurbs.curve();
             let knots = nurbs.knots();
             let breaks = knots.spans().map(|span| knots.knots()[span]).chain([knots.domain()[1]]);
@@ -154,6 +158,9 @@ mod tests {
         let lines = gizmo.of_curve(&curve, &path);
         // The polygon, a cross of three lines for four points and three knots, five frames of three.
         assert_eq!(lines.len(), 1 + 3 * 4 + 3 * 3 + 3 * 5);
+        let ring = SplineCurve::closed(2, vec![Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Z]);
+        let lines = gizmo.of_curve(&ring, &SplinePath::default());
+        assert_eq!(lines[0].0, [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Z, Vec3::ZERO], "it comes back");
         let net = ControlNet::bezier(3, (0..9).map(|i| Vec3::new((i % 3) as f32, 0.0, (i / 3) as f32)).collect());
         assert_eq!(gizmo.of_net(&net).len(), 6);
     }

@@ -7,7 +7,7 @@ use super::SplinePath;
 
 /// Puts lights on a [`SplineCurve`](super::SplineCurve), in the middles of equal parts of its length.
 ///
-/// They are children of the curve, so that they are baked with it.
+/// They are children of the curve, so that they are baked with it, and go when this component is removed.
 #[derive(Component, Reflect, Clone, Debug)]
 #[reflect(Component)]
 #[require(Visibility)]
@@ -62,6 +62,21 @@ pub(super) fn update_lights(
         }
         for (index, pose) in poses.into_iter().enumerate().filter(|(index, _)| !is_there[*index]) {
             light(&mut commands.spawn((LightOnCurve(index), pose, ChildOf(curve))), &along.light);
+        }
+    }
+}
+
+/// The lights go with what put them there.
+pub(super) fn remove_lights(
+    removed: On<Remove, LightsAlong>,
+    curves: Query<&Children>,
+    lights: Query<(), With<LightOnCurve>>,
+    mut commands: Commands,
+) {
+    for &child in curves.get(removed.entity).into_iter().flatten() {
+        if lights.contains(child) {
+            // They may go with their curve, too.
+            commands.entity(child).try_despawn();
         }
     }
 }

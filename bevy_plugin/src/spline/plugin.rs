@@ -4,7 +4,7 @@ use bevy::asset::AssetEventSystems;
 use bevy::camera::visibility::VisibilitySystems;
 use bevy::prelude::*;
 
-use super::lights::update_lights;
+use super::lights::{remove_lights, update_lights};
 use super::mesh::{update_surfaces, update_sweeps};
 use super::path::update_paths;
 use super::travel::travel;
@@ -24,6 +24,7 @@ pub enum SplineSystems {
 
 impl Plugin for SplinePlugin {
     fn build(&self, app: &mut App) {
+        app.add_observer(remove_lights);
         app.configure_sets(
             PostUpdate,
             (SplineSystems::Shape, SplineSystems::Place)

@@ -24,7 +24,8 @@ pub fn arc_length<C: Curve>(curve: &C, [from, to]: [Parameter<C>; 2], tolerance:
 
 /// The parameter at a distance along a curve from another parameter; the end of the domain if it is not as long.
 ///
-/// The distance on the curve to the one asked for is at most about `tolerance`. Newton's method, held between bounds
+/// The inverse of [`arc_length`] from there: a negative distance leads backwards, at most to the start of the domain. The
+/// distance on the curve to the one asked for is at most about `tolerance`. Newton's method, held between bounds
 /// that close in: the derivative of the length is the speed.
 pub fn parameter_at<C: Curve>(
     curve: &C,
@@ -32,18 +33,27 @@ pub fn parameter_at<C: Curve>(
     distance: Parameter<C>,
     tolerance: Parameter<C>,
 ) -> Parameter<C> {
-    let end = curve.domain()[1];
+    let is_backwards = distance < Parameter::<C>::ZERO;
+    let end = curve.domain()[usize::from(!is_backwards)];
     let length = arc_length(curve, [from, end], tolerance);
-    if distance >= length {
+    let is_too_far = if is_backwards { distance <= length } else { distance >= length };
+    if is_too_far {
         return end;
     }
     let guess = from + (end - from) * (distance / length);
-    invert(curve, [from, end], distance, guess, tolerance)
+    let bounds = if is_backwards { [end, from] } else { [from, end] };
+    invert(curve, bounds, [from, guess], distance, tolerance)
 }
 
 /// A curve by the distance travelled along it: all its points are passed at speed 1.
 ///
-/// Keeps `N` parameters and the lengths up to them, in `2 N` numbers.
+/// Keeps `N` parameters and the lengths up to them, in `2 N` numbers. `N` is at least 2, for both ends; with less it does
+/// not compile:
+///
+/// ```compile_fail
+/// # use radiosity::spline::{Cubic, Travel};
+/// Travel::<_, 1>::new(Cubic([0.0, 1.0, 0.0, 0.0]), 1e-3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Travel<C: Curve, const N: usize> {
     curve: C,
@@ -55,8 +65,9 @@ pub struct Travel<C: Curve, const N: usize> {
 impl<C: Curve, const N: usize> Travel<C, N> {
     /// Measures a curve, off by at most about `tolerance`, an absolute length.
     pub fn new(curve: C, tolerance: Parameter<C>) -> Self {
-        let ([start, end], tolerance) = (curve.domain(), tolerance / Parameter::<C>::from_usize(N.max(1)));
-        let share = |i: usize| Parameter::<C>::from_usize(i) / Parameter::<C>::from_usize(N.max(2) - 1);
+        const { assert!(N >= 2, "a way has two ends: N is at least 2") };
+        let ([start, end], tolerance) = (curve.domain(), tolerance / Parameter::<C>::from_usize(N));
+        let share = |i: usize| Parameter::<C>::from_usize(i) / Parameter::<C>::from_usize(N - 1);
         let parameters = core::array::from_fn(|i| start + (end - start) * share(i));
         let mut lengths = [Parameter::<C>::ZERO; N];
         for i in 1..N {
@@ -79,7 +90,7 @@ impl<C: Curve, const N: usize> Travel<C, N> {
         let interval = [self.parameters[i - 1], self.parameters[i]];
         let share = (distance - *before) / (end - *before);
         let guess = interval[0] + (interval[1] - interval[0]) * share;
-        invert(&self.curve, interval, distance - *before, guess, self.tolerance)
+        invert(&self.curve, interval, [interval[0], guess], distance - *before, self.tolerance)
     }
 
     /// The point after a distance, with its derivatives by it: the tangent has length 1, the second derivative is the
@@ -152,15 +163,15 @@ fn halve_until<C: Curve>(
     halve_until(curve, [from, middle], tolerance, depth - 1) + halve_until(curve, [middle, to], tolerance, depth - 1)
 }
 
-/// The parameter between two others at a distance from the first one; it lies between them.
+/// The parameter within bounds at a signed distance from a parameter, sought from a guess on.
 fn invert<C: Curve>(
     curve: &C,
-    [from, to]: [Parameter<C>; 2],
+    [mut low, mut high]: [Parameter<C>; 2],
+    [from, guess]: [Parameter<C>; 2],
     distance: Parameter<C>,
-    guess: Parameter<C>,
     tolerance: Parameter<C>,
 ) -> Parameter<C> {
-    let (mut low, mut high, mut t) = (from, to, guess);
+    let mut t = guess;
     let mut excess = arc_length(curve, [from, t], tolerance) - distance;
     for _ in 0..64 {
         if excess < Parameter::<C>::ZERO {
@@ -220,14 +231,15 @@ fn cubic_halves<V: VectorSpace>(
     let tolerance = tolerance.max(rounding);
     let cubed = turn * turn * turn;
     let error = |factor: V::Scalar, scale: f64, most: f64| (factor * number(scale)).min(number(most)) * slack;
-    if error(cubed, 2.5e-6, 3e-2) < tolerance {
+    // Not larger is enough: of a curve without length all is 0, the tolerance perhaps too.
+    if error(cubed, 2.5e-6, 3e-2) <= tolerance {
         return length;
     }
-    if error(cubed * cubed, 1.5e-11, 9e-3) < tolerance {
+    if error(cubed * cubed, 1.5e-11, 9e-3) <= tolerance {
         return square.gauss(&GAUSS_16);
     }
     // False also where nothing can be said, as the speed is NaN.
-    let is_too_long = error(cubed * cubed * cubed, 3.5e-16, 3.5e-3) >= tolerance;
+    let is_too_long = error(cubed * cubed * cubed, 3.5e-16, 3.5e-3) > tolerance;
     if !is_too_long || depth == 0 {
         return square.gauss(&GAUSS_24);
     }

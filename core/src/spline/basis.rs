@@ -9,10 +9,10 @@ impl<R: Real> KnotVector<'_, R> {
     /// `i <= degree`.
     ///
     /// They sum to 1; for `t` in the span none is negative. "The NURBS Book", algorithm A2.2. `span` comes from
-    /// [`span`](Self::span).
+    /// [`span`](Self::span); any other number stands for the piece to which its knot belongs, or for the last one.
     #[inline]
     pub fn basis(&self, span: usize, t: R) -> [R; MAX_ORDER] {
-        cox_de_boor(self.around(span), self.degree(), t)
+        cox_de_boor(self.around(self.piece(span)), self.degree(), t)
     }
 
     /// The derivatives of the orders below `K` of the basis functions of a span at `t`.
@@ -24,9 +24,10 @@ impl<R: Real> KnotVector<'_, R> {
     /// The derivatives of order 0, 1, 2 ... of the basis functions of a span at `t`, as many as there are rows.
     ///
     /// The derivative of order `k` is found from the basis functions of degree `p - k`, whose sum it is: the formula
-    /// of "The NURBS Book", equation 2.7, `k` times. The results are those of algorithm A2.3.
+    /// of "The NURBS Book", equation 2.7, `k` times. The results are those of algorithm A2.3. Spans are as for
+    /// [`basis`](Self::basis).
     pub fn basis_derivatives(&self, span: usize, t: R, rows: &mut [[R; MAX_ORDER]]) {
-        let window = self.around(span);
+        let window = self.around(self.piece(span));
         for (k, row) in rows.iter_mut().enumerate() {
             *row = cox_de_boor_derivative(window, self.degree(), k, t);
         }

@@ -37,15 +37,7 @@ impl<'a, P: ControlPoint> BSpline<'a, P> {
     /// As for an open one, but with `degree` points less, which are those at the beginning again; also where the
     /// distances of the first `2 degree + 1` knots do not repeat themselves at the end.
     pub fn closed(knots: KnotVector<'a, P::Scalar>, points: &'a [P]) -> Result<Self, SplineError> {
-        let [start, end] = knots.domain();
-        let count = knots.count().saturating_sub(knots.degree()).max(1);
-        let all = knots.knots();
-        let slack = P::Scalar::EPSILON * P::Scalar::from_f64(16.0) * (start.abs() + end.abs());
-        let breaks = |&i: &usize| ((all[i] - all[i - count]) - (end - start)).abs() > slack;
-        match (count..all.len()).find(breaks) {
-            Some(index) => Err(SplineError::NotPeriodic { index }),
-            None => Self::checked(knots, points, count),
-        }
+        Self::checked(knots, points, knots.period()?)
     }
 
     fn checked(knots: KnotVector<'a, P::Scalar>, points: &'a [P], wanted: usize) -> Result<Self, SplineError> {

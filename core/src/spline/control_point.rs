@@ -58,6 +58,11 @@ pub(super) fn check_degree(count: usize) -> Result<(), SplineError> {
     }
 }
 
+/// Whether a degree is not above the highest one; asked before anything is counted with it.
+pub(super) fn check_highest(degree: usize) -> Result<(), SplineError> {
+    if degree <= MAX_DEGREE { Ok(()) } else { Err(SplineError::Degree { degree }) }
+}
+
 /// Whether all coordinates are finite.
 pub(super) fn check_finite<V: VectorSpace>(points: &[V]) -> Result<(), SplineError> {
     match points.iter().position(|point| !point.is_finite()) {

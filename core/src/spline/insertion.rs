@@ -2,7 +2,7 @@
 
 use super::bezier::MAX_ORDER;
 use super::blossom::blossom;
-use super::control_point::check_degree;
+use super::control_point::{check_degree, check_points};
 use super::split::check_buffer;
 use super::{BSpline, ControlPoint, KnotVector, SplineError};
 use crate::math::Real;
@@ -17,17 +17,8 @@ impl<P: ControlPoint> BSpline<'_, P> {
     ///
     /// Where the parameter lies outside of the domain or is a knot with full multiplicity, or a buffer does not fit.
     pub fn insert(&self, t: P::Scalar, knots: &mut [P::Scalar], points: &mut [P]) -> Result<(), SplineError> {
-        let (old, degree) = (self.knots().knots(), self.degree());
-        self.check_parameter(t)?;
-        check_buffer(knots.len(), old.len() + 1)?;
         check_buffer(points.len(), self.knots().count() + 1)?;
-        let span = old.partition_point(|&knot| knot <= t) - 1;
-        if self.knots().multiplicity(t) > degree {
-            return Err(SplineError::Multiplicity { index: span + 1, most: degree + 1 });
-        }
-        knots[..=span].copy_from_slice(&old[..=span]);
-        knots[span + 1] = t;
-        knots[span + 2..].copy_from_slice(&old[span + 1..]);
+        let span = self.knots().insert(t, knots)?;
         points.iter_mut().enumerate().for_each(|(i, point)| *point = self.boehm(span, t, i));
         Ok(())
     }
@@ -56,7 +47,7 @@ impl<P: ControlPoint> BSpline<'_, P> {
             } else if old.get(passed).is_some_and(|&missing| knot > missing) {
                 return Err(SplineError::MissingKnot { index: passed });
             } else {
-                self.check_parameter(knot)?;
+                self.knots().check_inside(knot)?;
             }
         }
         if passed < old.len() {
@@ -105,13 +96,14 @@ impl<P: ControlPoint> BSpline<'_, P> {
     /// # Errors
     ///
     /// Where there is no such knot inside of the domain, or a buffer is not shorter by one than the knots and the
-    /// control points of an open curve.
+    /// control points of an open curve; where a weight of the curve without the knot is not positive, as it may be where
+    /// the weights differ much: then the buffers hold what is no curve.
     pub fn remove(&self, knot: P::Scalar, knots: &mut [P::Scalar], points: &mut [P]) -> Result<P::Scalar, SplineError> {
         let (old, degree) = (self.knots().knots(), self.degree());
         let [start, end] = self.knots().domain();
         let multiplicity = self.knots().multiplicity(knot);
         if multiplicity == 0 || knot <= start || knot >= end {
-            return Err(SplineError::Parameter { parameter: knot.to_f64(), domain: [start, end].map(Real::to_f64) });
+            return Err(self.knots().outside(knot));
         }
         check_buffer(knots.len(), old.len() - 1)?;
         check_buffer(points.len(), self.knots().count() - 1)?;
@@ -119,6 +111,7 @@ impl<P: ControlPoint> BSpline<'_, P> {
         knots[..last].copy_from_slice(&old[..last]);
         knots[last..].copy_from_slice(&old[last + 1..]);
         self.solve_boehm([last - degree, last - multiplicity], knot, points);
+        check_points(points)?;
         let without = BSpline::trusted(KnotVector::trusted(knots, degree), points);
         let moved = |i: usize| (without.boehm(last - 1, knot, i) - self.control(i)).length();
         Ok((last - degree..=last - multiplicity.min(degree)).map(moved).fold(P::Scalar::ZERO, Real::max))
@@ -126,14 +119,7 @@ impl<P: ControlPoint> BSpline<'_, P> {
 
     /// Control point `i` after insertion of a knot behind knot `span`.
     fn boehm(&self, span: usize, knot: P::Scalar, i: usize) -> P {
-        let (old, degree) = (self.knots().knots(), self.degree());
-        if i + degree <= span {
-            self.control(i)
-        } else if i > span || old[i] >= knot {
-            self.control(i - 1)
-        } else {
-            self.control(i - 1).lerp(self.control(i), (knot - old[i]) / (old[i + degree] - old[i]))
-        }
+        self.knots().boehm(span, knot, i, |k| self.control(k))
     }
 
     /// The control points before a knot was inserted, which moved those of `first..=last`: half of them from either side.
@@ -154,7 +140,8 @@ impl<P: ControlPoint> BSpline<'_, P> {
     /// Writes the control points of the Bezier curve that is the piece of a span.
     ///
     /// Point `i` is the blossom with `i` times the end of the piece and else its beginning. `span` comes from
-    /// [`span`](KnotVector::span) or [`spans`](KnotVector::spans); any other one stands for the last piece before it.
+    /// [`span`](KnotVector::span) or [`spans`](KnotVector::spans); any other number stands for the piece to which its knot
+    /// belongs, or for the last one.
     ///
     /// # Errors
     ///
@@ -162,7 +149,7 @@ impl<P: ControlPoint> BSpline<'_, P> {
     pub fn bezier(&self, span: usize, points: &mut [P]) -> Result<(), SplineError> {
         check_buffer(points.len(), self.degree() + 1)?;
         let knots = self.knots().knots();
-        let span = self.knots().span(knots[span.min(knots.len() - 1)]);
+        let span = self.knots().piece(span);
         let [start, end] = [knots[span], knots[span + 1]];
         for (i, point) in points.iter_mut().enumerate() {
             let mut arguments = [start; MAX_ORDER];
@@ -175,10 +162,11 @@ impl<P: ControlPoint> BSpline<'_, P> {
     /// The blossom of the piece of a span: the polynomial of `degree` arguments that is linear in each, does not
     /// depend on their order, and is the piece where all are equal.
     ///
-    /// De Boor's algorithm with another parameter in each round. Ramshaw 1989.
+    /// De Boor's algorithm with another parameter in each round. Ramshaw 1989. Spans are as for
+    /// [`bezier`](Self::bezier).
     pub fn blossom(&self, span: usize, arguments: &[P::Scalar]) -> P {
         let degree = self.degree();
-        let span = span.clamp(degree, self.knots().count() - 1);
+        let span = self.knots().piece(span);
         let mut points = [P::default(); MAX_ORDER];
         (0..=degree).for_each(|i| points[i] = self.control(span - degree + i));
         blossom(&points[..=degree], self.knots().around(span), arguments.iter().copied())
@@ -196,15 +184,6 @@ impl<P: ControlPoint> BSpline<'_, P> {
         let length = |span: usize| self.knots().knots()[span + 1] - self.knots().knots()[span];
         let longer = |a: usize, b: usize| if length(b) > length(a) { b } else { a };
         self.knots().spans().filter(acts).reduce(longer).unwrap_or(self.knots().span(finer[i]))
-    }
-
-    fn check_parameter(&self, t: P::Scalar) -> Result<(), SplineError> {
-        let [start, end] = self.knots().domain();
-        if t >= start && t <= end {
-            Ok(())
-        } else {
-            Err(SplineError::Parameter { parameter: t.to_f64(), domain: [start, end].map(Real::to_f64) })
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! B-splines through points, and near to many points.
 
 use super::bezier::MAX_ORDER;
-use super::control_point::check_finite;
+use super::control_point::{check_finite, check_highest};
 use super::split::check_buffer;
 use super::{KnotVector, SplineError};
 use crate::math::{Real, VectorSpace};
@@ -13,9 +13,11 @@ use crate::math::{Real, VectorSpace};
 ///
 /// # Errors
 ///
-/// Where there are not more parameters than the degree, or not `degree + 1` knots more than parameters.
+/// Where the degree is above [`MAX_DEGREE`](super::MAX_DEGREE), or there are not more parameters than the degree, or not
+/// `degree + 1` knots more than parameters.
 pub fn averaged_knots<R: Real>(parameters: &[R], degree: usize, knots: &mut [R]) -> Result<(), SplineError> {
     let [Some(&first), Some(&last)] = [parameters.first(), parameters.last()] else { return Err(SplineError::Empty) };
+    check_highest(degree)?;
     if parameters.len() <= degree {
         return Err(SplineError::PointCount { points: parameters.len(), wanted: degree + 1 });
     }
@@ -47,8 +49,8 @@ pub const fn band(count: usize, degree: usize) -> usize {
 /// # Errors
 ///
 /// Where there are not as many parameters, points and control points as basis functions, a buffer does not fit, a
-/// number is not finite, or a basis function is 0 at its point (Schoenberg and Whitney 1953), as it may be where
-/// parameters do not ascend.
+/// number is not finite, a parameter lies outside of the domain by more than rounding, or a basis function is 0 at its
+/// point (Schoenberg and Whitney 1953), as it may be where parameters do not ascend.
 pub fn interpolate<V: VectorSpace>(
     knots: KnotVector<V::Scalar>,
     parameters: &[V::Scalar],
@@ -60,6 +62,7 @@ pub fn interpolate<V: VectorSpace>(
     check_sizes(knots, [parameters.len(), points.len(), control_points.len()], scratch)?;
     check_buffer(points.len(), count)?;
     check_finite(points)?;
+    check_parameters(knots, parameters)?;
     let mut band = Band { rows: scratch, half: degree };
     band.rows.fill(V::Scalar::ZERO);
     for (i, &t) in parameters.iter().enumerate() {
@@ -86,7 +89,8 @@ pub fn interpolate<V: VectorSpace>(
 /// # Errors
 ///
 /// Where there are not as many parameters as points and as many control points as basis functions, a buffer does not
-/// fit, a number is not finite, or there are too few points near a basis function.
+/// fit, a number is not finite, a parameter lies outside of the domain by more than rounding, or there are too few points
+/// near a basis function.
 pub fn fit<V: VectorSpace>(
     knots: KnotVector<V::Scalar>,
     parameters: &[V::Scalar],
@@ -97,6 +101,7 @@ pub fn fit<V: VectorSpace>(
     let degree = knots.degree();
     check_sizes(knots, [parameters.len(), points.len(), control_points.len()], scratch)?;
     check_finite(points)?;
+    check_parameters(knots, parameters)?;
     let mut triangle = Triangle { rows: scratch, width: degree + 1 };
     triangle.rows.fill(V::Scalar::ZERO);
     control_points.fill(V::default());
@@ -111,6 +116,17 @@ pub fn fit<V: VectorSpace>(
         (near.fold(V::default(), |sum, (&p, b)| sum + p * b) - point).length_squared()
     });
     Ok((squared.sum::<V::Scalar>() / V::Scalar::from_usize(points.len().max(1))).sqrt())
+}
+
+/// Whether all parameters lie in the domain, but for the rounding with which its ends may have been computed.
+fn check_parameters<R: Real>(knots: KnotVector<R>, parameters: &[R]) -> Result<(), SplineError> {
+    let [start, end] = knots.domain();
+    let slack = R::EPSILON * R::from_f64(4.0) * (start.abs() + end.abs());
+    // No number lies nowhere.
+    match parameters.iter().find(|&&t| !(t >= start - slack && t <= end + slack)) {
+        Some(&t) => Err(knots.outside(t)),
+        None => Ok(()),
+    }
 }
 
 /// The basis functions at a parameter, and the index of the first of them.

@@ -1,7 +1,9 @@
 //! Knots: where the pieces of a B-spline join.
 
+use super::control_point::check_highest;
+use super::split::check_buffer;
 use super::{MAX_DEGREE, SplineError};
-use crate::math::Real;
+use crate::math::{Real, VectorSpace};
 
 /// Knots in non-decreasing order, and the degree of the polynomials between them.
 ///
@@ -25,10 +27,8 @@ impl<'a, R: Real> KnotVector<'a, R> {
     /// Where the degree is above [`MAX_DEGREE`], there are less than `2 (degree + 1)` knots, one is not finite or
     /// smaller than the one before it, more than `degree + 1` are equal, or the domain is empty.
     pub fn new(knots: &'a [R], degree: usize) -> Result<Self, SplineError> {
+        check_highest(degree)?;
         let order = degree + 1;
-        if degree > MAX_DEGREE {
-            return Err(SplineError::Degree { degree });
-        }
         if knots.len() < 2 * order {
             return Err(SplineError::KnotCount { knots: knots.len(), least: 2 * order });
         }
@@ -120,6 +120,68 @@ impl<'a, R: Real> KnotVector<'a, R> {
         (self.degree..self.count()).filter(move |&span| knots[span] < knots[span + 1])
     }
 
+    /// The span itself, as [`span`](Self::span) finds it; for any other number that of its knot, or of the last one.
+    #[inline]
+    pub(super) fn piece(&self, span: usize) -> usize {
+        let is_piece = (self.degree..self.count()).contains(&span) && self.knots[span] < self.knots[span + 1];
+        if is_piece { span } else { self.span(self.knots[span.min(self.knots.len() - 1)]) }
+    }
+
+    /// How many knots a period has, if the distances of the first `2 degree + 1` knots repeat themselves at the end.
+    pub(super) fn period(&self) -> Result<usize, SplineError> {
+        let ([start, end], all) = (self.domain(), self.knots);
+        let count = self.count().saturating_sub(self.degree).max(1);
+        let slack = R::EPSILON * R::from_f64(16.0) * (start.abs() + end.abs());
+        let breaks = |&i: &usize| ((all[i] - all[i - count]) - (end - start)).abs() > slack;
+        match (count..all.len()).find(breaks) {
+            Some(index) => Err(SplineError::NotPeriodic { index }),
+            None => Ok(count),
+        }
+    }
+
+    /// Whether a parameter lies in the domain.
+    pub(super) fn check_inside(&self, t: R) -> Result<(), SplineError> {
+        let [start, end] = self.domain();
+        if t >= start && t <= end { Ok(()) } else { Err(self.outside(t)) }
+    }
+
+    /// That a parameter is none of the domain.
+    pub(super) fn outside(&self, t: R) -> SplineError {
+        SplineError::Parameter { parameter: t.to_f64(), domain: self.domain().map(R::to_f64) }
+    }
+
+    /// Writes the knots with one more; the index of the last old one that is not larger.
+    pub(super) fn insert(&self, t: R, knots: &mut [R]) -> Result<usize, SplineError> {
+        self.check_inside(t)?;
+        check_buffer(knots.len(), self.knots.len() + 1)?;
+        let span = self.knots.partition_point(|&knot| knot <= t) - 1;
+        if self.multiplicity(t) > self.degree {
+            return Err(SplineError::Multiplicity { index: span + 1, most: self.degree + 1 });
+        }
+        knots[..=span].copy_from_slice(&self.knots[..=span]);
+        knots[span + 1] = t;
+        knots[span + 2..].copy_from_slice(&self.knots[span + 1..]);
+        Ok(span)
+    }
+
+    /// Control point `i` after insertion of a knot behind knot `span`, from those before. Boehm 1980.
+    pub(super) fn boehm<P: VectorSpace<Scalar = R>>(
+        &self,
+        span: usize,
+        knot: R,
+        i: usize,
+        control: impl Fn(usize) -> P,
+    ) -> P {
+        let (old, degree) = (self.knots, self.degree);
+        if i + degree <= span {
+            control(i)
+        } else if i > span || old[i] >= knot {
+            control(i - 1)
+        } else {
+            control(i - 1).lerp(control(i), (knot - old[i]) / (old[i + degree] - old[i]))
+        }
+    }
+
     /// The first knot after `t` in the domain; its end if there is none.
     pub fn next_break(&self, t: R) -> R {
         let span = self.span(t);
@@ -164,7 +226,7 @@ impl<R: Real> KnotVector<'static, R> {
 /// A curve with them begins at its first and ends at its last control point. `knots.len()` is the number of control
 /// points plus `degree + 1`.
 pub fn clamped_knots<R: Real>(knots: &mut [R], degree: usize) {
-    let pieces = R::from_usize(knots.len().saturating_sub(2 * degree + 1).max(1));
+    let pieces = R::from_usize(knots.len().saturating_sub(degree.saturating_mul(2).saturating_add(1)).max(1));
     for (i, knot) in knots.iter_mut().enumerate() {
         *knot = (R::from_usize(i.saturating_sub(degree)) / pieces).min(R::ONE);
     }
@@ -175,7 +237,7 @@ pub fn clamped_knots<R: Real>(knots: &mut [R], degree: usize) {
 /// `knots.len()` is the number of control points plus `degree + 1` for an open curve, which then begins and ends in
 /// the middle of its control polygon, or plus `2 degree + 1` for a closed one.
 pub fn uniform_knots<R: Real>(knots: &mut [R], degree: usize) {
-    let pieces = R::from_usize(knots.len().saturating_sub(2 * degree + 1).max(1));
+    let pieces = R::from_usize(knots.len().saturating_sub(degree.saturating_mul(2).saturating_add(1)).max(1));
     for (i, knot) in knots.iter_mut().enumerate() {
         *knot = (R::from_usize(i) - R::from_usize(degree)) / pieces;
     }

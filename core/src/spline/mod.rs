@@ -13,7 +13,7 @@
 //! | go through points | [`cardinal_tangents`], [`catmull_rom_tangents`], [`kochanek_bartels_tangents`], [`c2_tangents`], [`interpolate`], [`fit`] |
 //! | conics | [`Circle`] in four forms, [`conic`], [`Conic`] |
 //! | measure | [`arc_length`], [`parameter_at`], [`Travel`], `nearest`, [`Jet::curvature`], [`rotation_minimizing_frames`] |
-//! | surfaces | [`BSplineSurface`], [`NurbsSurface`], [`BezierSurface`]; with a heap `revolution`, `extrusion`, `ruled`, `loft`, `coons`, `OwnedSurface::through` and `near` points, and `tessellate`; [`hermite_patch`], [`Bicubics`] for single points at speed |
+//! | surfaces | [`BSplineSurface`], [`NurbsSurface`], [`BezierSurface`]; with a heap `OwnedSurface::closed`, `revolution`, `extrusion`, `ruled`, `loft`, `coons`, `OwnedSurface::through` and `near` points, and `tessellate`; [`hermite_patch`], [`Bicubics`] for single points at speed |
 //!
 //! How fast it is beside `bevy_math`, `kurbo`, `uniform-cubic-splines`, `curvo` and `truck-geometry` stands in
 //! `core/benches/spline_rivals/README.md`: on a grid, points of a NURBS surface come 12 times as fast as from `curvo`, at

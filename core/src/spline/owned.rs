@@ -3,6 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::control_point::check_highest;
 use super::interpolation::band;
 use super::{
     BSpline, Bezier, ControlPoint, Homogeneous, KnotVector, SplineError, averaged_knots, bezier_knots, chord_times,
@@ -45,6 +46,7 @@ impl<P: ControlPoint> OwnedBSpline<P> {
     ///
     /// As [`bezier_knots`] and [`new`](Self::new).
     pub fn from_beziers(breaks: &[P::Scalar], degree: usize, points: Vec<P>) -> Result<Self, SplineError> {
+        check_highest(degree)?;
         let mut knots = vec![P::Scalar::ZERO; degree * breaks.len() + 2];
         bezier_knots(breaks, degree, &mut knots)?;
         Self::new(knots, degree, points)
@@ -113,6 +115,7 @@ impl<V: ControlPoint<Point = V>> OwnedBSpline<V> {
     ///
     /// As [`averaged_knots`], [`KnotVector::new`] and [`interpolate`].
     pub fn through(points: &[V], degree: usize) -> Result<Self, SplineError> {
+        check_highest(degree)?;
         let mut parameters = vec![V::Scalar::ZERO; points.len()];
         chord_times(points, V::Scalar::ONE, &mut parameters)?;
         let mut curve = Self::zero(points.len() + degree + 1, degree);

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use super::compatible::compatible;
 use super::{OwnedSurface, SurfacePoint};
 use crate::math::{Real, VectorSpace as _};
+use crate::spline::control_point::check_highest;
 use crate::spline::{
     BSpline, ControlPoint, KnotVector, OwnedBSpline, SplineError, averaged_knots, band, chord_times, interpolate,
 };
@@ -20,6 +21,7 @@ use crate::spline::{
 /// Where there are less than two curves, the degree is 0 or as large as their number, or two that follow each other are
 /// the same; also where interpolated weights are not positive.
 pub fn loft<P: SurfacePoint>(curves: &[BSpline<P>], degree: usize) -> Result<OwnedSurface<P>, SplineError> {
+    check_highest(degree)?;
     if curves.len() < 2 || degree == 0 || degree >= curves.len() {
         return Err(SplineError::PointCount { points: curves.len(), wanted: degree.max(1) + 1 });
     }
@@ -50,6 +52,7 @@ impl<V: SurfacePoint + ControlPoint<Point = V>> OwnedSurface<V> {
     /// Where the points do not fill rows, there are not more columns and rows than the degrees, or two rows or columns that
     /// follow each other are the same.
     pub fn through(points: &[V], columns: usize, [p, q]: [usize; 2]) -> Result<Self, SplineError> {
+        check_highest(p)?;
         if columns == 0 || !points.len().is_multiple_of(columns) {
             return Err(SplineError::Ragged { points: points.len(), columns });
         }

@@ -2,6 +2,12 @@
 //!
 //! `u` runs along the rows of control points and `v` from row to row. The front of a surface is the side from which `u`
 //! to `v` is a turn to the left.
+//!
+//! Without a heap, [`BSplineSurface`] borrows its knots and control points: it is evaluated, sampled, hit by rays, gets a
+//! knot more ([`BSplineSurface::insert`]) and gives the curves on it ([`BSplineSurface::isocurve`]); both write into slices.
+//! With the feature `alloc`, `OwnedSurface` keeps its own: what changes many knots at once, removes one, splits, raises the
+//! degree, closes a direction or builds a surface from curves or points is found there. What splits a surface without a
+//! heap is a knot that is inserted until it stands `degree + 1` times.
 
 mod bezier_surface;
 mod bicubics;
@@ -17,6 +23,7 @@ mod extrusion;
 #[cfg(feature = "alloc")]
 mod fit;
 mod hermite_patch;
+mod insertion;
 mod jet;
 #[cfg(feature = "alloc")]
 mod loft;

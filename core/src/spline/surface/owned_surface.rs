@@ -27,6 +27,40 @@ impl<P: SurfacePoint> OwnedSurface<P> {
         Ok(Self { knots, degrees, points })
     }
 
+    /// A surface that comes back to its beginning along one direction or both, like a tube or a ring.
+    ///
+    /// As for a [closed](crate::spline::BSpline::closed) curve, the distances of the first `2 degree + 1` knots of such a
+    /// direction repeat themselves at the end, and `degree` columns (along `u`) or rows (along `v`) of control points less
+    /// are given, which are those at the beginning again. The surface keeps them twice, as [`points`](Self::points) shows:
+    /// it is an open one whose ends meet, with `degree - 1` continuous derivatives where knots are simple. Parameters
+    /// outside of the domain are not taken round.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new), with so many points less; also where the knots of a closed direction do not repeat
+    /// themselves.
+    pub fn closed(
+        directions: &[Direction],
+        knots: [Vec<P::Scalar>; 2],
+        degrees: [usize; 2],
+        points: &[P],
+    ) -> Result<Self, SplineError> {
+        let [u, v] = [0, 1].map(|k| KnotVector::new(&knots[k], degrees[k]));
+        let all = [u?, v?];
+        let given = |direction: Direction| match directions.contains(&direction) {
+            true => all[direction as usize].period(),
+            false => Ok(all[direction as usize].count()),
+        };
+        let (columns, rows) = (given(Direction::U)?, given(Direction::V)?);
+        if points.len() != columns * rows {
+            return Err(SplineError::PointCount { points: points.len(), wanted: columns * rows });
+        }
+        let [wider, higher] = all.map(|knots| knots.count());
+        let at = |j: usize, i: usize| points[j % rows * columns + i % columns];
+        let repeated = (0..higher).flat_map(|j| (0..wider).map(move |i| at(j, i))).collect();
+        Self::new(knots, degrees, repeated)
+    }
+
     /// A copy of a borrowed surface.
     pub fn copy_of(surface: &BSplineSurface<P>) -> Self {
         let all = [Direction::U, Direction::V].map(|direction| surface.knots(direction));
@@ -71,14 +105,12 @@ impl<P: SurfacePoint> OwnedSurface<P> {
     ///
     /// # Errors
     ///
-    /// As [`BSpline::remove`](crate::spline::BSpline::remove).
+    /// As [`BSpline::remove`](crate::spline::BSpline::remove), with the index of a point in its row or column.
     pub fn without_knot(&self, direction: Direction, knot: P::Scalar) -> Result<(Self, P::Scalar), SplineError> {
-        let mut farthest = P::Scalar::ZERO;
-        for line in self.lines(direction) {
-            farthest = farthest.max(line.removed(knot)?.1);
-        }
-        let removed = |line: &OwnedBSpline<P>| line.removed(knot).map_or_else(|_| line.clone(), |(removed, _)| removed);
-        Ok((self.changed(direction, removed), farthest))
+        let removed: Result<Vec<_>, _> = self.lines(direction).map(|line| line.removed(knot)).collect();
+        let (lines, distances): (Vec<_>, Vec<_>) = removed?.into_iter().unzip();
+        let farthest = distances.into_iter().fold(P::Scalar::ZERO, Real::max);
+        Ok((self.with_lines(direction, lines), farthest))
     }
 
     /// The same surface with every inner knot as often as its degree, so that each piece has the control points of a Bezier
@@ -124,20 +156,10 @@ impl<P: SurfacePoint> OwnedSurface<P> {
 
     /// The curve on the surface along a direction, where the other parameter is `t`, held within the domain.
     pub fn isocurve(&self, along: Direction, t: P::Scalar) -> OwnedBSpline<P> {
-        let across = if along == Direction::U { Direction::V } else { Direction::U };
-        let knots = self.surface().knots(across);
-        let [low, high] = knots.domain();
-        let t = t.clamp(low, high);
-        let span = knots.span(t);
-        let weights = knots.basis(span, t);
-        let p = knots.degree();
-        let point = |line: OwnedBSpline<P>| {
-            let mut sum = P::default();
-            line.points[span - p..=span].iter().zip(&weights).for_each(|(&point, &weight)| sum += point * weight);
-            sum
-        };
+        let mut points = vec![P::default(); self.surface().knots(along).count()];
+        // The buffer fits.
+        let _ = self.surface().isocurve(along, t, &mut points);
         let along = along as usize;
-        let points = self.lines(across).map(point).collect();
         OwnedBSpline { knots: self.knots[along].clone(), degree: self.degrees[along], points }
     }
 
@@ -199,7 +221,11 @@ impl<P: SurfacePoint> OwnedSurface<P> {
 
     /// The same change to all lines along a direction.
     fn changed(&self, direction: Direction, change: impl Fn(&OwnedBSpline<P>) -> OwnedBSpline<P>) -> Self {
-        let lines: Vec<OwnedBSpline<P>> = self.lines(direction).map(|line| change(&line)).collect();
+        self.with_lines(direction, self.lines(direction).map(|line| change(&line)).collect())
+    }
+
+    /// With other lines along a direction, as many as before, all with the same knots.
+    fn with_lines(&self, direction: Direction, lines: Vec<OwnedBSpline<P>>) -> Self {
         let (knots, degree, length) = (lines[0].knots.clone(), lines[0].degree, lines[0].points.len());
         let mut changed = self.clone();
         let index = direction as usize;

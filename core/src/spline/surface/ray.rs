@@ -50,6 +50,8 @@ impl<R: Real> Mul<R> for Across<R> {
 struct Seen<'a, R> {
     net: [Across<R>; MOST_POINTS],
     local: [&'a [R]; 2],
+    /// From where to where it goes.
+    domain: [[R; 2]; 2],
     degrees: [usize; 2],
     /// What rounding makes of zero.
     slack: R,
@@ -117,7 +119,8 @@ impl<'a, R: Real> Seen<'a, R> {
     ) -> Option<Self> {
         let knots = [Direction::U, Direction::V].map(|direction| surface.knots(direction));
         let degrees = knots.map(|knots| knots.degree());
-        let local = [0, 1].map(|k| &knots[k].knots()[spans[k] + 1 - degrees[k]..=spans[k] + degrees[k]]);
+        let local = [0, 1].map(|k| knots[k].around(spans[k]));
+        let domain = [0, 1].map(|k| [0, 1].map(|end| knots[k].knots()[spans[k] + end]));
         let mut net = [Across::default(); MOST_POINTS];
         let mut size = R::ZERO;
         for (slot, &point) in net.iter_mut().zip(surface.rows(spans).flatten()) {
@@ -125,15 +128,14 @@ impl<'a, R: Real> Seen<'a, R> {
             *slot = Across(planes.map(|plane| (scaled - origin * weight).dot(plane)));
             size = size.max(slot.0[0].abs()).max(slot.0[1].abs());
         }
-        let seen = Self { net, local, degrees, slack: size * R::EPSILON * R::from_f64(16.0) };
+        let seen = Self { net, local, domain, degrees, slack: size * R::EPSILON * R::from_f64(16.0) };
         let count = (degrees[0] + 1) * (degrees[1] + 1);
         seen.holds_zero(&seen.net[..count]).then_some(seen)
     }
 
     /// Calls `found` with the parameters of all zeros.
     fn zeros(&self, mut found: impl FnMut([R; 2])) {
-        let domain = [0, 1].map(|k| domain(self.local[k], self.degrees[k]));
-        let mut stack = [domain; STACK];
+        let mut stack = [self.domain; STACK];
         let mut height = 1;
         for _ in 0..MOST_PARTS {
             if height == 0 {
@@ -141,7 +143,7 @@ impl<'a, R: Real> Seen<'a, R> {
             }
             height -= 1;
             let part = stack[height];
-            match self.judge(part, domain) {
+            match self.judge(part) {
                 Verdict::Nothing => {}
                 Verdict::Point(at) => found(at),
                 Verdict::Halve(k) if height + 2 <= STACK => {
@@ -156,7 +158,7 @@ impl<'a, R: Real> Seen<'a, R> {
         }
     }
 
-    fn judge(&self, part: [[R; 2]; 2], domain: [[R; 2]; 2]) -> Verdict<R> {
+    fn judge(&self, part: [[R; 2]; 2]) -> Verdict<R> {
         let [columns, rows] = self.degrees.map(|degree| degree + 1);
         let mut net = self.net;
         let net = &mut net[..columns * rows];
@@ -165,8 +167,10 @@ impl<'a, R: Real> Seen<'a, R> {
             return Verdict::Nothing;
         }
         let middle = part.map(|[low, high]| (low + high) * R::from_f64(0.5));
-        let small =
-            |k: usize| part[k][1] - part[k][0] <= (domain[k][1] - domain[k][0]) * R::EPSILON * R::from_f64(64.0);
+        // With degree 0 nothing changes along a side, as if it had no length.
+        let size = |[low, high]: [R; 2]| high - low;
+        let finest = |k: usize| size(self.domain[k]) * R::EPSILON * R::from_f64(64.0);
+        let small = |k: usize| self.degrees[k] == 0 || size(part[k]) <= finest(k);
         if small(0) && small(1) {
             return Verdict::Point(middle);
         }
@@ -248,11 +252,6 @@ impl<'a, R: Real> Seen<'a, R> {
         }
         sums.map(|sum| sum.0)
     }
-}
-
-/// From where to where a piece goes.
-fn domain<R: Real>(local: &[R], degree: usize) -> [R; 2] {
-    [local[degree - 1], local[degree]]
 }
 
 /// From the middle of one side to the middle of the other.
