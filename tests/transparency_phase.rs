@@ -134,7 +134,7 @@ fn nothing_is_sorted_where_nothing_is_transparent() {
     phase.add_at(1, -2.0);
     assert_eq!(phase.order(), [1]);
     phase.remove(1);
-    assert_eq!(phase.order(), []);
+    assert!(phase.order().is_empty());
     phase.add_at(2, -2.0);
     phase.add_at(3, -5.0);
     assert_eq!(phase.order(), [3, 2]);

@@ -88,13 +88,14 @@ impl Written<'_> {
         }
         let pictures = self.pictures(staging.interrupted);
         let truth = pictures.truth(points)?;
+        let true_errors = if self.args.views { pictures.true_errors(points)? } else { Vec::new() };
         if truth.points == 0 {
             let warning = "--reference found no point to look at: all of them lie inside of geometry; ask for more";
             eprintln!("warning: {warning}");
             self.bake.report.warnings.push(warning.into());
         }
         if self.args.views {
-            self.bake.true_errors = pictures.true_errors(points)?;
+            self.bake.true_errors = true_errors;
             let picture = self.pictures(staging.interrupted).false_color(FalseColor::Truth)?;
             staging.write("truth.png", &picture)?;
         }

@@ -136,9 +136,7 @@ fn run(
     let blockers = world.corners[..world.blockers].to_vec();
     let occluders = workers.run_apart(progress, || tree(blockers))?;
     let tracer = &Tracer::new(&world, Logged { occluders, log: ray_log });
-    let seeds = Seeds(settings.seed);
-    let row_seeds = [seeds.of(1), seeds.of(3)];
-    let cell = plan.cell as usize;
+    let (row_seeds, cell) = ([1, 3].map(|number| Seeds(settings.seed).of(number)), plan.cell as usize);
     let mut parts = Parts::new((plan.parts, plan.cell), tracer, &layout, budget.patches, row_seeds, workers, progress)?;
     let (lamps, is_light) = emitters::lamps(&world);
     let lighting = &Lighting::from(scene);

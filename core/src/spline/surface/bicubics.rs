@@ -4,7 +4,7 @@ use super::{BSplineSurface, Direction, SurfacePoint};
 use crate::math::{Real, VectorSpace};
 use crate::spline::{KnotVector, SplineError};
 
-/// The surface `Σ a[j][i] u^i v^j`, `i` and `j` from 0 to 3.
+/// The surface `Σ a[i][j] u^i v^j`, `i` and `j` from 0 to 3.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bicubic<P>(pub [[P; 4]; 4]);
 
@@ -12,26 +12,36 @@ impl<P: SurfacePoint> Bicubic<P> {
     /// The point at `u` and `v`, by Horner's rule along both.
     #[inline]
     pub fn point(&self, u: P::Scalar, v: P::Scalar) -> P::Point {
-        horner(&self.along(u), v).project()
+        self.control_point(u, v).project()
+    }
+
+    /// The point before it is projected. It goes through memory, where all of its coordinates lie side by side: compilers
+    /// then compute two of them at once.
+    #[inline(never)]
+    fn control_point(&self, u: P::Scalar, v: P::Scalar) -> P {
+        horner(&self.along(u), v)
     }
 
     /// The point with its first derivatives by `u` and by `v`.
     #[inline]
     pub fn tangents(&self, u: P::Scalar, v: P::Scalar) -> [P::Point; 3] {
         let along = self.along(u);
-        let [a, b, c, d] = &self.0;
-        let by_u = [slope(a, u), slope(b, u), slope(c, u), slope(d, u)];
+        let [_, b, c, d] = &self.0;
+        let [two, three] = [2.0, 3.0].map(P::Scalar::from_f64);
+        let by_u: [P; 4] = core::array::from_fn(|j| (d[j] * (three * u) + c[j] * two) * u + b[j]);
         let [[point, dv], [du, _]] =
             P::project_partials([[horner(&along, v), slope(&along, v)], [horner(&by_u, v), P::default()]]);
         [point, du, dv]
     }
 
-    /// The coefficients of the curve at one `u`.
+    /// The coefficients of the curve at one `u`: all at once, since what lies side by side is then the same work.
     #[inline(always)]
     fn along(&self, u: P::Scalar) -> [P; 4] {
-        // Written out: to map the array copies it.
         let [a, b, c, d] = &self.0;
-        [horner(a, u), horner(b, u), horner(c, u), horner(d, u)]
+        let step = |high: &[P; 4], low: &[P; 4]| {
+            [high[0] * u + low[0], high[1] * u + low[1], high[2] * u + low[2], high[3] * u + low[3]]
+        };
+        step(&step(&step(d, c), b), a)
     }
 }
 
@@ -126,7 +136,7 @@ fn powers<P: SurfacePoint>(surface: &BSplineSurface<P>, spans: [usize; 2]) -> Bi
     for (row, points) in surface.rows(spans).enumerate() {
         for (column, &point) in points.iter().enumerate() {
             for (j, i) in (0..4).flat_map(|j| (0..4).map(move |i| (j, i))) {
-                piece.0[j][i] += point * (along[i][column] / factorials[i] * (across[j][row] / factorials[j]));
+                piece.0[i][j] += point * (along[i][column] / factorials[i] * (across[j][row] / factorials[j]));
             }
         }
     }
