@@ -16,8 +16,8 @@
 //! | surfaces | [`BSplineSurface`], [`NurbsSurface`], [`BezierSurface`]; with a heap `OwnedSurface::closed`, `revolution`, `extrusion`, `ruled`, `loft`, `coons`, `OwnedSurface::through` and `near` points, and `tessellate`; [`hermite_patch`], [`Bicubics`] for single points at speed |
 //!
 //! How fast it is beside `bevy_math`, `kurbo`, `uniform-cubic-splines`, `curvo` and `truck-geometry` stands in
-//! `core/benches/spline_rivals/README.md`: on a grid, points of a NURBS surface come 12 times as fast as from `curvo`, at
-//! single places 4.3 times (as [`Bicubics`]), its normals 6.6 times; points of NURBS curves about twice, lengths of cubics 1.2 times and nearest
+//! `core/benches/spline_rivals/README.md`: on a grid, points of a NURBS surface come 13 times as fast as from `curvo`, at
+//! single places 5 times (as [`Bicubics`]), its normals 6.7 times; points of NURBS curves about twice, lengths of cubics 1.2 times and nearest
 //! points of cubics 2.6 times as fast as from `kurbo`.
 
 mod arc_length;
