@@ -19,6 +19,7 @@ fn surfaces() -> Vec<(&'static str, Matter<f32>)> {
         ("ggx 0.3", Matter::Ggx(Ggx::new(0.04, 0.3))),
         ("ggx 0.6", Matter::Ggx(Ggx::new(1.0, 0.6))),
         ("ggx 1", Matter::Ggx(Ggx::new(0.9, 1.0))),
+        ("coated", Matter::Coated(Coated { coat: Ggx::new(0.04, 0.4), base: lambert, chance: 0.3 })),
         ("glossy", Matter::Glossy(Mixture { first: Ggx::new(0.9, 0.5), second: lambert, share: 0.3 })),
     ]
 }
@@ -202,6 +203,10 @@ fn mixtures_may_have_a_dirac_part() {
     }
     assert!((mirrored as f32 / SAMPLES as f32 - 0.25).abs() < 0.006, "{mirrored}");
     assert!((sum - (0.25 * 0.9 + 0.75 * 0.4)).abs() < 3e-3, "{sum}");
+    let coated = Coated { coat: surface.first, base: surface.second, chance: 0.2 };
+    let weights = (0..SAMPLES).filter_map(|index| coated.sample(departure, numbers(index)));
+    let sum: f64 = weights.map(|scattered| f64::from(scattered.weight) / f64::from(SAMPLES)).sum();
+    assert!((sum - 1.3).abs() < 0.02, "{sum}");
     let arrival = direction(0.5, 2.0);
     assert!((surface.evaluate(arrival, departure) - 0.75 * 0.4 / PI).abs() < 1e-6);
 }

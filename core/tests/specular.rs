@@ -11,7 +11,8 @@ use radiosity::bake::{BakeSettings, Keep, Quality};
 use radiosity::light::{DirectionalLight, Light, LightSource, PointLight};
 use radiosity::material::{AlphaMode, Material};
 use radiosity::progress::Progress;
-use radiosity::render::truth;
+use radiosity::render::{Camera, PathSettings, path_traced, truth};
+use radiosity::scatter::{Ggx, Scatter};
 use radiosity::scene::{Receiver, Scene, Surface};
 use radiosity::transport::{Lighting, Relighter};
 
@@ -288,5 +289,37 @@ fn kept_transport_has_mirrors_and_glass() {
         let lit = pairs.filter(|(texel, _)| texel.min_element() > 0.05);
         let error = median(lit.map(|(texel, relit)| relative(*relit, *texel)).collect());
         assert!(error < 0.02, "{error}");
+    }
+}
+
+/// Rough metal and varnish under a sky of 1: black and matt as the bake takes them, with gloss what their lobes reflect.
+#[test]
+fn gloss_reflects_as_bevy_draws_it() {
+    for (metallic, roughness) in [(1.0, 0.5), (0.0, 0.4)] {
+        let base = Vec3::new(0.9, 0.6, 0.3);
+        let material = Material { base_color: base.extend(1.0), metallic, roughness, ..Default::default() };
+        let mut scene = Scene { materials: vec![material], sky: Vec3::ONE, ..Default::default() };
+        add_quad(&mut scene, "floor", [[-9.0, 0.0, 9.0], [9.0, 0.0, 9.0], [9.0, 0.0, -9.0], [-9.0, 0.0, -9.0]], 0);
+        let eye = Vec3::new(0.0, 2.0, 1.5);
+        let camera = Camera::looking_at(eye, Vec3::ZERO, 0.01);
+        let seen = |gloss| {
+            let settings = PathSettings { paths: 4096, gloss, seed: 3, threads: 1 };
+            path_traced(&scene, &camera, [1, 1], &settings, &Progress::default()).unwrap().pixels[0]
+        };
+        assert!(seen(false).mean.abs_diff_eq(base * (1.0 - metallic), 1e-4));
+        let f0 = if metallic == 1.0 { base } else { Vec3::splat(0.04) };
+        let departure = Vec3::new(0.6, 0.0, 0.8);
+        let lobe = Ggx::new(f0, roughness);
+        let (rows, columns) = (400, 400);
+        let mut expected = base * (1.0 - metallic) * (Vec3::ONE - f0);
+        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+            let cos = (row as f32 + 0.5) / rows as f32;
+            let (sin, angle) = ((1.0 - cos * cos).sqrt(), 2.0 * PI * (column as f32 + 0.5) / columns as f32);
+            let arrival = Vec3::new(sin * angle.cos(), sin * angle.sin(), cos);
+            expected += lobe.evaluate(arrival, departure) * (cos * 2.0 * PI / (rows * columns) as f32);
+        }
+        let found = seen(true);
+        let off = (found.mean - expected).abs();
+        assert!((off - 3.0 * found.standard_error() - 2e-3).max_element() < 0.0, "{found:?} {expected}");
     }
 }

@@ -93,6 +93,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 64, requires = "render", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub samples: u32,
 
+    /// Let rough metal and varnish reflect in what --render draws, as Bevy does; the bake has none of it
+    #[arg(long, requires = "render")]
+    pub gloss: bool,
+
     /// Make the lightmaps of a folder anew for other lamps and colors, by its transport.bin; its other files stay
     #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "out", "sky", "transport", "views", "reference", "render"])]
     pub relight: Option<PathBuf>,

@@ -9,8 +9,8 @@ use std::time::Duration;
 use radiosity::bake::Bake;
 use radiosity::progress::{Cancelled, Progress, Stage};
 use radiosity::render::{
-    Camera, FalseColor, Preview, Truth, difference, false_color, lightmapped, overview, path_traced, preview,
-    true_errors, truth,
+    Camera, FalseColor, PathSettings, Preview, Truth, difference, false_color, lightmapped, overview, path_traced,
+    preview, true_errors, truth,
 };
 use radiosity::scene::Scene;
 
@@ -67,10 +67,11 @@ impl<'a> Pictures<'a> {
     }
 
     /// Writes what paths of light show, the same beside the preview, and the difference of both.
-    pub fn render(&self, file: &Path, samples: u32, ev100: f32) -> Result<(), CliError> {
+    pub fn render(&self, file: &Path, (paths, gloss): (u32, bool), ev100: f32) -> Result<(), CliError> {
         let Self { scene, bake, camera, width, .. } = *self;
-        let (size, work) = ([width, HEIGHT], (bake.report.threads, bake.report.seed as u32));
-        let picture = self.follow(|progress| path_traced(scene, &camera, size, samples, work, progress))?;
+        let (size, threads, seed) = ([width, HEIGHT], bake.report.threads, bake.report.seed as u32);
+        let settings = PathSettings { paths, gloss, seed, threads };
+        let picture = self.follow(|progress| path_traced(scene, &camera, size, &settings, progress))?;
         let radiance = self.draw(|progress| lightmapped(scene, bake, &camera, size, progress))?;
         let Preview { rgb, .. } = self.draw(|progress| preview(scene, bake, &camera, size, Some(ev100), progress))?;
         let truth = picture.rgb(ev100);

@@ -72,7 +72,7 @@ impl Written<'_> {
             staging.write(&format!("{}.png", shown.name()), &pictures.false_color(shown)?)?;
         }
         if let Some(file) = &self.args.render {
-            pictures.render(file, self.args.samples, ev100)?;
+            pictures.render(file, (self.args.samples, self.args.gloss), ev100)?;
         }
         Ok(ev100)
     }

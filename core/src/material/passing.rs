@@ -7,6 +7,8 @@ use super::{AlphaMode, Material, Texture};
 
 /// Metal up to this perceptual roughness is a mirror. Bevy draws nothing smoother than 0.089.
 pub const MIRROR_ROUGHNESS: f32 = 0.1;
+/// What all but metal reflects along the normal.
+const VARNISH: f32 = 0.04;
 /// From this share of metal on.
 pub const MIRROR_METALLIC: f32 = 0.9;
 
@@ -20,6 +22,14 @@ impl Material {
         let [metallic, roughness] = self.metal_at(textures, uv_0, uv_1);
         let tint = || self.base_color_at(textures, uv_0, uv_1, color).truncate().map(saturate);
         self.is_mirror_of(metallic, roughness).then(tint)
+    }
+
+    /// Reflectance along the normal there of the lobe that Bevy adds to what is diffuse, in `[0, 1]`: 4 %, of metal the base
+    /// color; and its perceptual roughness. Arguments are those of [`Material::reflectance_at`].
+    pub fn gloss_at(&self, textures: &[Texture], uv_0: Vec2, uv_1: Vec2, color: Vec4) -> (Vec3, f32) {
+        let [metallic, roughness] = self.metal_at(textures, uv_0, uv_1);
+        let base = self.base_color_at(textures, uv_0, uv_1, color).truncate().map(saturate);
+        (Vec3::splat(VARNISH).lerp(base, metallic), roughness)
     }
 
     /// What the light that meets a surface there is multiplied by where it passes straight on, in `[0, 1]`, its thickness

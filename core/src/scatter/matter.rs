@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Colored, Ggx, Glass, Lambert, Mirror, Mixture, Phong, Scatter, Scattered};
+use super::{Coated, Colored, Ggx, Glass, Lambert, Mirror, Mixture, Phong, Scatter, Scattered};
 
 /// What a surface of a scene is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +17,10 @@ pub enum Matter<S> {
     Ggx(Ggx<S>),
     /// The border of something clear.
     Glass(Glass<S>),
-    /// Diffuse below a varnish or beside metal.
+    /// Rough metal in places, diffuse in others.
     Glossy(Mixture<Ggx<S>, Lambert<S>>),
+    /// Diffuse below a varnish.
+    Coated(Coated<Ggx<S>, Lambert<S>>),
 }
 
 impl<S: Colored> Matter<S> {
@@ -30,6 +32,7 @@ impl<S: Colored> Matter<S> {
             Self::Ggx(surface) => surface,
             Self::Glass(surface) => surface,
             Self::Glossy(surface) => surface,
+            Self::Coated(surface) => surface,
         }
     }
 }

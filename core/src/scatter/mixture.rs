@@ -22,24 +22,44 @@ impl<S: Colored, A: Scatter<S>, B: Scatter<S>> Scatter<S> for Mixture<A, B> {
     }
 
     fn density(&self, arrival: Vec3, departure: Vec3) -> f32 {
-        self.first.density(arrival, departure) * self.share
-            + self.second.density(arrival, departure) * (1.0 - self.share)
+        density_of([&self.first, &self.second], self.share, arrival, departure)
     }
 
     fn sample(&self, departure: Vec3, numbers: Vec3) -> Option<Scattered<S>> {
-        let scattered = if numbers.z < self.share {
-            self.first.sample(departure, numbers.with_z(numbers.z / self.share))
-        } else {
-            self.second.sample(departure, numbers.with_z((numbers.z - self.share) / (1.0 - self.share)))
-        }?;
-        let Density::PerSteradian(_) = scattered.density else { return Some(scattered) };
-        let arrival = scattered.arrival;
-        let density = self.density(arrival, departure);
-        let weight = self.evaluate(arrival, departure) * (arrival.z.abs() / density);
-        Some(Scattered { arrival, weight, density: Density::PerSteradian(density) })
+        let (is_first, numbers) = choose(self.share, numbers);
+        let chosen: &dyn Scatter<S> = if is_first { &self.first } else { &self.second };
+        let scattered = chosen.sample(departure, numbers)?;
+        // Of those that have one direction only its share chooses just as many.
+        let is_dirac = scattered.density == Density::Dirac;
+        Some(if is_dirac { scattered } else { weigh(self, scattered.arrival, departure) })
     }
 
     fn transmittance(&self, distance: f32) -> S {
         self.first.transmittance(distance) * self.share + self.second.transmittance(distance) * (1.0 - self.share)
     }
+}
+
+/// Whether the first of two is chosen, and numbers for it.
+pub(super) fn choose(chance: f32, numbers: Vec3) -> (bool, Vec3) {
+    match numbers.z < chance {
+        true => (true, numbers.with_z(numbers.z / chance)),
+        false => (false, numbers.with_z((numbers.z - chance) / (1.0 - chance))),
+    }
+}
+
+/// The density of directions of which the first of two chooses so many.
+pub(super) fn density_of<S: Colored>(
+    [first, second]: [&dyn Scatter<S>; 2],
+    chance: f32,
+    arrival: Vec3,
+    departure: Vec3,
+) -> f32 {
+    first.density(arrival, departure) * chance + second.density(arrival, departure) * (1.0 - chance)
+}
+
+/// A direction of a surface without Dirac parts, with its weight.
+pub(super) fn weigh<S: Colored>(surface: &impl Scatter<S>, arrival: Vec3, departure: Vec3) -> Scattered<S> {
+    let density = surface.density(arrival, departure);
+    let weight = surface.evaluate(arrival, departure) * (arrival.z.abs() / density);
+    Scattered { arrival, weight, density: Density::PerSteradian(density) }
 }

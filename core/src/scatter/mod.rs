@@ -28,6 +28,7 @@
 //! 0 where it passes. What is carried is radiance over the square of the index of refraction, which refraction leaves as
 //! it is: in air that is the radiance.
 
+mod coated;
 mod ggx;
 mod glass;
 mod lambert;
@@ -36,12 +37,13 @@ mod mirror;
 mod mixture;
 mod phong;
 
+pub use coated::*;
 pub use ggx::*;
 pub use glass::*;
 pub use lambert::*;
 pub use matter::*;
 pub use mirror::*;
-pub use mixture::*;
+pub use mixture::Mixture;
 pub use phong::*;
 
 use glam::Vec3;

@@ -228,6 +228,12 @@ impl<'a> World<'a> {
         self.material(hit.triangle).mirror_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
     }
 
+    /// The lobe beside what is diffuse at a hit: see [`Material::gloss_at`].
+    pub fn gloss(&self, hit: &Hit) -> (Vec3, f32) {
+        let [uv_0, uv_1] = self.uvs(hit);
+        self.material(hit.triangle).gloss_at(&self.scene.textures, uv_0, uv_1, self.color(hit))
+    }
+
     /// The ray that a mirror sends on. Where normals are smooth it stays on the side of the triangle where it came from.
     pub fn reflected(&self, ray: &Ray, hit: &Hit) -> Ray {
         let side = if hit.front { 1.0 } else { -1.0 };

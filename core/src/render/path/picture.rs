@@ -25,8 +25,20 @@ pub struct PathPicture<S> {
     pub seed: u32,
 }
 
-/// A scene as its bake takes it, seen by a camera, with at least so many paths for each pixel. What blocks no light is not
-/// seen. The result depends on the seed, and not on the number of threads, 0 for one on each core.
+/// How a picture is made by paths of light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathSettings {
+    /// For each pixel at least so many.
+    pub paths: u32,
+    /// Whether rough metal and varnish reflect, which no lightmap shows.
+    pub gloss: bool,
+    /// Of all random decisions.
+    pub seed: u32,
+    /// 0 for one on each core; the result does not depend on it.
+    pub threads: usize,
+}
+
+/// A scene as its bake takes it, or with gloss, seen by a camera. What blocks no light is not seen.
 ///
 /// # Errors
 ///
@@ -35,15 +47,16 @@ pub fn path_traced(
     scene: &Scene,
     camera: &Camera,
     size: [u32; 2],
-    paths: u32,
-    (threads, seed): (usize, u32),
+    settings: &PathSettings,
     progress: &Progress,
 ) -> Result<PathPicture<Vec3>, Cancelled> {
     progress.enter(Stage::Paths);
     let world = World::new(scene);
-    let tracer = PathTracer::diffuse(&world, tree(world.corners[..world.blockers].to_vec()));
-    let (workers, mut picture) = (Workers::new(threads), PathPicture::new(size, seed));
-    let steps = paths.div_ceil(PATHS);
+    let occluders = tree(world.corners[..world.blockers].to_vec());
+    let of_kind = if settings.gloss { PathTracer::glossy } else { PathTracer::diffuse };
+    let tracer = of_kind(&world, occluders);
+    let (workers, mut picture) = (Workers::new(settings.threads), PathPicture::new(size, settings.seed));
+    let steps = settings.paths.div_ceil(PATHS);
     for step in 0..steps {
         progress.enter_group(step as usize, steps as usize);
         picture.step(&tracer, camera, &workers, progress)?;

@@ -82,14 +82,24 @@ impl<'a, O: Occluders> PathTracer<Vec3, Diffuse<'a, O>> {
     /// The scene of a world as its bake takes it, with all its lamps and what plane mirrors show of them; `occluders`
     /// holds the triangles that block light.
     pub fn diffuse(world: &'a World<'a>, occluders: O) -> Self {
-        let lamps = world.scene.lights.iter().flat_map(|light| {
-            let (itself, strength) = ((&light.source.with_strength(Vec3::ONE)).into(), light.source.strength());
-            let images = world.mirrors.iter().filter_map(|mirror| Some((mirror.image_of(&itself)?, Some(*mirror))));
-            let all: Vec<_> = [(itself.clone(), None)].into_iter().chain(images).collect();
-            all.into_iter().map(move |(light, mirror)| PathLamp { light, strength, mirror })
-        });
-        Self::new(Diffuse::new(Tracer::new(world, occluders)), lamps.collect())
+        Self::new(Diffuse::new(Tracer::new(world, occluders)), lamps_of(world))
     }
+
+    /// The same with the gloss that Bevy draws and no lightmap has.
+    pub fn glossy(world: &'a World<'a>, occluders: O) -> Self {
+        Self::new(Diffuse::with_gloss(Tracer::new(world, occluders)), lamps_of(world))
+    }
+}
+
+/// All lamps of a world and what plane mirrors show of them.
+fn lamps_of(world: &World) -> Vec<PathLamp<Vec3>> {
+    let lamps = world.scene.lights.iter().flat_map(|light| {
+        let (itself, strength) = ((&light.source.with_strength(Vec3::ONE)).into(), light.source.strength());
+        let images = world.mirrors.iter().filter_map(|mirror| Some((mirror.image_of(&itself)?, Some(*mirror))));
+        let all: Vec<_> = [(itself.clone(), None)].into_iter().chain(images).collect();
+        all.into_iter().map(move |(light, mirror)| PathLamp { light, strength, mirror })
+    });
+    lamps.collect()
 }
 
 impl<S: Colored, O: Optics<S>> PathTracer<S, O> {
